@@ -53,7 +53,7 @@ py::dict published(const FabricValue& of) {
     py::dict entry = provenance_dict(number.provenance);
     entry["value"] = number.value;
     entry["unit"] = number.unit;
-    if (!number.tester.empty()) entry["tester"] = number.tester;
+    if (number.tester) entry["tester"] = enum_name(*number.tester);
     all[py::str(name)] = entry;
   }
   return all;

@@ -40,9 +40,9 @@ render::Image image_from_python(py::handle picture, const std::string& what) {
 py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::string& map) {
   experiments::DiffFlags flags;
   flags.pixels_per_degree = pixels_per_degree;
-  flags.map = map;
-  if (map != "steps" && map != "flip")
-    throw Error::invalid_input("map = " + map + " must be steps | flip").with_key("map", map);
+  const auto quantity = value_if_named<experiments::HeatMap>(map);
+  if (!quantity) throw Error::invalid_input("map = " + map + " must be steps | flip").with_key("map", map);
+  flags.map = *quantity;
   experiments::Comparison found;
   render::Image of_a = image_from_python(a, "a"), of_b = image_from_python(b, "b");
   unlocked([&] { found = compare_pictures(std::move(of_a), std::move(of_b), flags); });

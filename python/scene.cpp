@@ -49,7 +49,7 @@ py::object get(const Scene& scene, const std::string& name) {
   Scene copy = scene;
   const Keys keys = bind_scene(copy);
   const std::string path = key_named(name, paths(scene_keys()));
-  return to_python(find_key(keys, path == "fabric" ? "fabric.name" : path, kOfScenes).field);
+  return to_python(find_key(keys, key_of_flag(path), kOfScenes).field);
 }
 
 void set(Scene& scene, const std::string& name, py::object value) {
@@ -99,7 +99,8 @@ the keys of their tables, and `keys`, a list of keyframes, where they move.)")
       .def(
           "copy", [](const Scene& scene) { return scene; }, "Another one with the same keys.")
       .def("__repr__", [](const Scene& scene) {
-        return "Scene(" + scene.cloth.shape + " of " + scene.fabric.name + ", law " + scene.law + ")";
+        return "Scene(" + enum_name(scene.cloth.shape) + " of " + scene.fabric.name + ", law " + scene.law +
+               ")";
       });
   module.def("scene_keys", &keys, "Every key of a scene: its type, unit, default, choices and meaning.");
 }

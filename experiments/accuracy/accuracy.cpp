@@ -17,7 +17,7 @@
 namespace hysteron::experiments {
 
 Scene with(const MethodSetting& setting, Scene scene) {
-  scene.mesh = setting.mesh;
+  scene.mesh = enum_name(setting.mesh);
   scene.element = setting.element;
   scene.law = setting.law;
   scene.integrator = setting.integrator;
@@ -48,22 +48,23 @@ void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_c
 namespace {
 
 struct AccuracyFlags {
-  std::string problem = "all", device = "cpu";
+  std::string problem = "all";
+  NamedDevice device = NamedDevice::cpu;
   Options options;
 };
 
 using F = AccuracyFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"problem", at<&F::problem>, "", any(), "", "bend, sag, droop, buckle, decay, swing, crease; several separated by commas, or all"},
-    {"device", at<&F::device>, "", any(), "cpu | cuda", "where settings are computed, one after the other; on the cpu by one thread"},
+    {"problem", at<&F::problem>, "", any(), "bend, sag, droop, buckle, decay, swing, crease; several separated by commas, or all"},
+    {"device", at<&F::device>, "", any(), "where settings are computed, one after the other; on the cpu by one thread"},
 };
 // clang-format on
 
 Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
 std::vector<Problem> chosen_problems(const F& flags) {
-  const Effort effort{flags.options.quick, value_named<DeviceChoice>(flags.device)};
+  const Effort effort{flags.options.quick, device_choice(flags.device)};
   std::vector<Problem> all;
   for (const auto& make : {bend_problem, sag_problem, droop_problem, buckle_problem, decay_problem,
                            swing_problem, crease_problem})
@@ -129,7 +130,7 @@ void write_table(Run& run, const std::vector<Solution>& solutions) {
       table.row({solution.problem.name,
                  s.factor,
                  describe(solution, s),
-                 s.mesh,
+                 enum_name(s.mesh),
                  enum_name(s.element),
                  s.law,
                  number_text(s.load, 6),

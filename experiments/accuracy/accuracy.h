@@ -20,7 +20,8 @@ namespace hysteron::experiments {
 struct MethodSetting {
   std::string factor =
       "base";  // the factor it varies: mesh, size, element, law, integrator, step, tolerance, ...
-  std::string mesh = "unionjack", law = "linear";
+  MeshFamily mesh = MeshFamily::unionjack;
+  std::string law = "linear";
   BendingElement element = BendingElement::shape;
   Integrator integrator = Integrator::quasi_static;
   ImplicitEvery implicit_every = ImplicitEvery::substep;

@@ -25,7 +25,7 @@ Found bend(const MethodSetting& setting) {
   protocol.cycles = 1;
   const LawRequest law{setting.law, fabric.virgin_curve(), {}};
   StripShape shape;
-  shape.mesh = setting.mesh;
+  shape.mesh = enum_name(setting.mesh);
   shape.element = setting.element;
   shape.triangles = setting.triangles;
   shape.warp_angle = setting.load;
@@ -57,7 +57,7 @@ Problem bend_problem(const Effort& effort) {
                   bend};
   problem.load = "warp angle";
   MethodSetting base;
-  base.mesh = "aligned";
+  base.mesh = MeshFamily::aligned;
   base.law = "prandtl";
   base.device = effort.device;
   base.triangles = effort.quick ? 96 : kTriangles;
@@ -68,21 +68,22 @@ Problem bend_problem(const Effort& effort) {
   MethodSetting hinge = base;
   hinge.element = BendingElement::hinge;
   if (effort.quick) {
-    vary(list, base, "mesh", &MethodSetting::mesh, {"random"});
+    vary(list, base, "mesh", &MethodSetting::mesh, {MeshFamily::random});
     vary(list, base, "size", &MethodSetting::triangles, {24});
     vary(list, hinge, "element", &MethodSetting::mesh, {base.mesh});
     return problem;
   }
   vary(list, base, "mesh", &MethodSetting::mesh,
-       {"aligned-45", "flipped", "unionjack", "equilateral", "random"});
+       {MeshFamily::aligned45, MeshFamily::flipped, MeshFamily::unionjack, MeshFamily::equilateral,
+        MeshFamily::random});
   vary(list, base, "size", &MethodSetting::triangles, {24, 96, 1360});
-  for (const char* mesh : {"unionjack", "random"}) {
+  for (const MeshFamily mesh : {MeshFamily::unionjack, MeshFamily::random}) {
     MethodSetting other = base;
     other.mesh = mesh;
     vary(list, other, "size", &MethodSetting::triangles, {24, 96});
   }
-  vary(list, hinge, "element", &MethodSetting::mesh,
-       {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"});
+  const auto families = every_value<MeshFamily>();
+  vary(list, hinge, "element", &MethodSetting::mesh, {families.begin(), families.end()});
   vary(list, base, "law", &MethodSetting::law, {"linear", "bilinear", "dahl", "obrien"});
   // The scalar law `wong` runs along four directions of the fabric, so its error depends on where these lie.
   MethodSetting wong = base;

@@ -34,7 +34,7 @@ Found solve(const MethodSetting& setting) {
 
 void vary_all(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
   list.push_back(base);
-  for (const std::string& mesh : strip_meshes()) {
+  for (const MeshFamily mesh : every_value<MeshFamily>()) {
     MethodSetting on = base;
     on.mesh = mesh;
     if (mesh != base.mesh) vary(list, base, "mesh", &MethodSetting::mesh, {mesh});

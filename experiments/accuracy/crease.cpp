@@ -18,7 +18,7 @@ constexpr double kFrame = 1.0 / 60;     // [s]
 
 Scene crease(const MethodSetting& setting) {
   Scene scene = with(setting, {});
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = kLength;
   scene.cloth.width = kWidth;
   scene.seconds = 0.8;
@@ -100,7 +100,7 @@ Problem crease_problem(const Effort& effort) {
                   {}};
   ask_for_motion({crease, kLength, kSampling, kFrame / (effort.quick ? 16 : 64), opening_angle}, problem);
   MethodSetting base;
-  base.mesh = "random";
+  base.mesh = MeshFamily::random;
   base.law = "prandtl";
   base.device = effort.device;
   base.integrator = Integrator::bdf2;

@@ -31,12 +31,12 @@ std::vector<std::string> setting_text(const Solution& solution, const MethodSett
   const MethodSetting& base = solution.problem.settings.front();
   std::vector<std::string> words;
   if (is_static(base)) {
-    words = {enum_name(s.element), s.mesh};
+    words = {enum_name(s.element), enum_name(s.mesh)};
   } else {
     words = {method_name(s)};
     if (s.tolerance > 0) words.back() += " adaptive";
     if (s.element != base.element) words.push_back(enum_name(s.element));
-    if (s.mesh != base.mesh) words.push_back(s.mesh);
+    if (s.mesh != base.mesh) words.push_back(enum_name(s.mesh));
   }
   if (s.law != base.law) words.push_back(s.law);
   if (s.load != base.load) words.push_back(solution.problem.load + " = " + number_text(s.load, 6));

@@ -85,7 +85,7 @@ class References {
  private:
   using Key = std::tuple<std::string, std::string, int, std::string>;
   static Key setting_key(const MethodSetting& setting) {
-    return {setting.mesh, enum_name(setting.element), setting.triangles, setting.law};
+    return {enum_name(setting.mesh), enum_name(setting.element), setting.triangles, setting.law};
   }
 
   MotionQuestion question_;

@@ -90,19 +90,19 @@ MethodSetting base_setting(const Effort& effort) {
 }
 
 void vary_meshes_and_sizes(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
-  for (const std::string& mesh : strip_meshes()) {
+  for (const MeshFamily mesh : every_value<MeshFamily>()) {
     if (mesh != base.mesh) vary(list, base, "mesh", &MethodSetting::mesh, {mesh});
-    if (quick && mesh != "unionjack" && mesh != "random") continue;
+    if (quick && mesh != MeshFamily::unionjack && mesh != MeshFamily::random) continue;
     for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64 / 4, kAlong64, 4 * kAlong64}) {
       if (triangles == base.triangles || (quick && triangles > base.triangles)) continue;
-      if (triangles > kAlong64 && mesh != "unionjack") continue;
+      if (triangles > kAlong64 && mesh != MeshFamily::unionjack) continue;
       list.push_back(varied(base, "size", [&](MethodSetting& s) { s.mesh = mesh, s.triangles = triangles; }));
     }
   }
 }
 
 void vary_elements(const MethodSetting& base, bool quick, std::vector<MethodSetting>& list) {
-  for (const std::string& mesh : strip_meshes())
+  for (const MeshFamily mesh : every_value<MeshFamily>())
     for (int triangles : {kAlong64 / 16, kAlong64 / 4, kAlong64}) {
       if (quick && triangles != kAlong64 / 16) continue;
       list.push_back(varied(base, "element", [&](MethodSetting& s) {
@@ -125,7 +125,7 @@ Problem sag_problem(const Effort& effort) {
   list.push_back(base);
   vary_meshes_and_sizes(base, effort.quick, list);
   vary_elements(base, effort.quick, list);
-  for (const std::string& mesh : strip_meshes())
+  for (const MeshFamily mesh : every_value<MeshFamily>())
     for (double gamma : {0.1, 1.0, 100.0, 1000.0}) {
       if (effort.quick && (gamma == 0.1 || gamma == 1000 || mesh != base.mesh)) continue;
       list.push_back(varied(base, "heaviness", [&](MethodSetting& s) { s.mesh = mesh, s.load = gamma; }));
@@ -162,7 +162,8 @@ Problem droop_problem(const Effort& effort) {
   base.triangles = kAlong64 / 4;
   std::vector<MethodSetting>& list = problem.settings;
   list.push_back(base);
-  std::vector<std::string> meshes = strip_meshes();
+  const auto families = every_value<MeshFamily>();
+  std::vector<MeshFamily> meshes(families.begin(), families.end());
   std::erase(meshes, base.mesh);
   if (!effort.quick) vary(list, base, "mesh", &MethodSetting::mesh, meshes);
   vary(list, base, "size", &MethodSetting::triangles, {kAlong64 / 64, kAlong64 / 16});

@@ -11,7 +11,7 @@ constexpr double kSampling = 1.0 / 60;                          // [s]
 
 Scene swing_scene(const MethodSetting& setting) {
   Scene scene = with(setting, {});
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = kLength;
   scene.cloth.width = kWidth;
   scene.seconds = 0.25;

@@ -29,11 +29,11 @@ struct BenchOptions {
 };
 // clang-format off
 const KeyRow<BenchOptions> kRows[] = {
-    {"sizes", at<&BenchOptions::sizes>, "", any(), "", "time of a step by the number of triangles, beside that of moving its bytes: table.csv and plot_sizes"},
-    {"sizes-triangles", at<&BenchOptions::sizes_triangles>, "", between(2, 1e7), "", "of --sizes"},
-    {"sizes-integrators", at<&BenchOptions::sizes_integrators>, "", any(), "", "of --sizes, separated by commas"},
-    {"profile", at<&BenchOptions::profile>, "", any(), "", "the kernels of the scene's steps: calls, time, bytes and the share of a copy's bandwidth, of which table.csv tells"},
-    {"budget", at<&BenchOptions::budget>, "s", positive(), "", "of --sizes: wall clock for the table; rows that would not fit are left out and say so"},
+    {"sizes", at<&BenchOptions::sizes>, "", any(), "time of a step by the number of triangles, beside that of moving its bytes: table.csv and plot_sizes"},
+    {"sizes-triangles", at<&BenchOptions::sizes_triangles>, "", between(2, 1e7), "of --sizes"},
+    {"sizes-integrators", at<&BenchOptions::sizes_integrators>, "", any(), "of --sizes, separated by commas"},
+    {"profile", at<&BenchOptions::profile>, "", any(), "the kernels of the scene's steps: calls, time, bytes and the share of a copy's bandwidth, of which table.csv tells"},
+    {"budget", at<&BenchOptions::budget>, "s", positive(), "of --sizes: wall clock for the table; rows that would not fit are left out and say so"},
 };
 // clang-format on
 
@@ -49,7 +49,7 @@ Setup defaults() {
   scene.mesh = "aligned";
   scene.triangles = 4608;
   Pin corner;
-  corner.select = "nearest";
+  corner.select = PinSelection::nearest;
   scene.pin.assign(2, corner);
   scene.pin[0].point = {0, 0.5, 0};
   scene.pin[1].point = {0.5, 0.5, 0};

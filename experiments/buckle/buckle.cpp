@@ -21,8 +21,8 @@ struct BuckleParams {
 using B = BuckleParams;
 // clang-format off
 const KeyRow<B> kRows[] = {
-    {"buckle.kind", at<&B::kind>, "", any(), "", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named. Gamma is the weight times L^3/b2, b2 along warp whatever the strip's direction"},
-    {"buckle.width", at<&B::width>, "", between(0, 0.25), "", "over the length, of the strip whose threshold is measured; 0: 1/10 upright, 1/80 on edge. cloth.width is that of the pictured one"},
+    {"buckle.kind", at<&B::kind>, "", any(), "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named. Gamma is the weight times L^3/b2, b2 along warp whatever the strip's direction"},
+    {"buckle.width", at<&B::width>, "", between(0, 0.25), "over the length, of the strip whose threshold is measured; 0: 1/10 upright, 1/80 on edge. cloth.width is that of the pictured one"},
 };
 // clang-format on
 
@@ -34,7 +34,7 @@ Setup defaults() {
   Scene& scene = setup.scene = default_scene();
   scene.law = "linear";
   scene.integrator = Integrator::quasi_static;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.01;
   scene.mesh = "unionjack";

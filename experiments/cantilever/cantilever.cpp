@@ -20,7 +20,7 @@ struct CantileverParams {
 using C = CantileverParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"gamma", at<&C::gamma>, "", at_least(0), "", "weight over stiffness, density g L^3/b2: sets the density, and law = linear unless named; 0: the fabric's own"},
+    {"gamma", at<&C::gamma>, "", at_least(0), "weight over stiffness, density g L^3/b2: sets the density, and law = linear unless named; 0: the fabric's own"},
 };
 // clang-format on
 
@@ -28,7 +28,7 @@ Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
   scene.integrator = Integrator::quasi_static;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.025;  // width of a specimen for ASTM D1388
   scene.mesh = "unionjack";

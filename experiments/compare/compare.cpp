@@ -30,25 +30,25 @@ namespace {
 using C = CompareParams;
 // clang-format off
 const KeyRow<CompareParams> kRows[] = {
-    {"laws", at<&C::laws>, "", any(), "", "columns: laws separated by commas, or all; each may carry further keys, as in linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
-    {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics separated by commas, or all"},
-    {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators separated by commas, or all"},
-    {"compare.to", at<&C::to>, "", any(), "", "column to subtract from the others, in rows of their own"},
-    {"compare.difference", at<&C::difference>, "", any(), "picture | curvature", "what compare.to subtracts"},
-    {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
-    {"compare.times", at<&C::times>, "s", at_least(0), "", "these instants on the page, a row each, in place of compare.rows: of each the picture nearest to it"},
-    {"compare.metrics", at<&C::metrics>, "", any(), "", "metrics separated by commas: what the table, the numbers below the columns and the bars show, in this order; without it the table has all, the page those of the experiment"},
-    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
-    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
-    {"batch", at<&C::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
-    {"compare.match", at<&C::match>, "", any(), "", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
-    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
-    {"compare.video", at<&C::video>, "", any(), "", "a film of the columns side by side, OUT/film.mp4 ..., if ffmpeg is installed: none | mp4 | webp (without loss) | gif, or several, separated by commas"},
-    {"compare.video-size", at<&C::video_size>, "MB", positive(), "", "of a film's file, at most: the quality of MP4, then its width give way"},
-    {"compare.title", at<&C::title>, "", any(), "", "of the page, before the fabric that all columns have"},
-    {"compare.names", at<&C::names>, "", any(), "", "what stands over the columns on the page, separated by commas, in place of their names"},
-    {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
-    {"compare.tune-metric", at<&C::tune_metric>, "", any(), "", "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},
+    {"laws", at<&C::laws>, "", any(), "columns: laws separated by commas, or all; each may carry further keys, as in linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
+    {"fabrics", at<&C::fabrics>, "", any(), "columns: fabrics separated by commas, or all"},
+    {"integrators", at<&C::integrators>, "", any(), "columns: integrators separated by commas, or all"},
+    {"compare.to", at<&C::to>, "", any(), "column to subtract from the others, in rows of their own"},
+    {"compare.difference", at<&C::difference>, "", any(), "what compare.to subtracts"},
+    {"compare.rows", at<&C::rows>, "", between(1, 64), "instants on the page"},
+    {"compare.times", at<&C::times>, "s", at_least(0), "these instants on the page, a row each, in place of compare.rows: of each the picture nearest to it"},
+    {"compare.metrics", at<&C::metrics>, "", any(), "metrics separated by commas: what the table, the numbers below the columns and the bars show, in this order; without it the table has all, the page those of the experiment"},
+    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "no row that lays the outlines over each other"},
+    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "how many columns run at a time; 0: one for each GPU, or for each core"},
+    {"batch", at<&C::batch>, "", between(1, kLargestBatch), kBatchDoc},
+    {"compare.match", at<&C::match>, "", any(), "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
+    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "curvature up to which the work is matched"},
+    {"compare.video", at<&C::video>, "", any(), "a film of the columns side by side, OUT/film.mp4 ..., if ffmpeg is installed: none | mp4 | webp (without loss) | gif, or several, separated by commas"},
+    {"compare.video-size", at<&C::video_size>, "MB", positive(), "of a film's file, at most: the quality of MP4, then its width give way"},
+    {"compare.title", at<&C::title>, "", any(), "of the page, before the fabric that all columns have"},
+    {"compare.names", at<&C::names>, "", any(), "what stands over the columns on the page, separated by commas, in place of their names"},
+    {"compare.tune", at<&C::tune>, "", any(), "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
+    {"compare.tune-metric", at<&C::tune_metric>, "", any(), "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},
 };
 // clang-format on
 
@@ -144,11 +144,11 @@ void take_scene_options(CommandLine& inner, Options& options) {
 // Throws without pictures: the columns' curvatures are subtracted as their pictures are drawn, from those
 // that the first one keeps.
 void check_difference(const CompareParams& choice, bool with_images) {
-  if (with_images || choice.to.empty() || choice.difference != "curvature") return;
+  if (with_images || choice.to.empty() || choice.difference != Difference::curvature) return;
   throw Error::invalid_input(
       "compare.difference = curvature needs pictures, and no-images draws none: leave one of both out "
       "(--compare.difference)")
-      .with_key("compare.difference", choice.difference);
+      .with_key("compare.difference", enum_name(choice.difference));
 }
 
 // Throws unless there is a name for each column.
@@ -202,7 +202,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
                             .metrics = split(choice.metrics),
                             .look = options.looks().front(),
                             .to = plan.to,
-                            .curvature = choice.difference == "curvature",
+                            .curvature = choice.difference == Difference::curvature,
                             .onion = experiment_named(experiment).onion,
                             .outlines = !choice.no_outlines,
                             .films = film_formats("compare.video", choice.video),
@@ -277,7 +277,7 @@ int run_compare(const CommandLine& line) {
     if (is_subtracted) choice.to = variants[0].name;
     plan = comparison_plan(inner, variants, choice, options.out);
   }
-  if (choice.difference == "curvature") jobs.first = plan.to;
+  if (choice.difference == Difference::curvature) jobs.first = plan.to;
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   if (choice.match != Match::fabric) keys["matched_to"] = plan.reference;

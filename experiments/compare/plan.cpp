@@ -125,7 +125,7 @@ std::vector<Flag> requested_for_page(const CommandLine& inner, const ComparePara
   std::vector<Flag> flags = for_sheets(inner);
   std::string look = last_text(inner.flags, "look", "cloth");
   if (!choice.no_outlines) look += ",silhouette";
-  if (!choice.to.empty() && choice.difference == "curvature") {
+  if (!choice.to.empty() && choice.difference == Difference::curvature) {
     if (is_reference)
       flags.push_back({"export", "ply"});
     else

@@ -11,10 +11,14 @@
 
 namespace hysteron::experiments {
 
+// What a column differs in from the one that compare.to names.
+enum class Difference { picture, curvature };
+constexpr std::array<const char*, 2> names(Difference) { return {"picture", "curvature"}; }
+
 struct CompareParams {
   std::string laws, fabrics, integrators;
   std::string to;  // column that others differ from; "": no such rows
-  std::string difference = "picture";
+  Difference difference = Difference::picture;
   int rows = 4;
   Numbers times;        // times of the rows [s]; empty: spread evenly
   std::string metrics;  // shown metrics; empty: all in the table, the experiment's own on the page

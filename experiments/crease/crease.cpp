@@ -26,16 +26,16 @@ namespace {
 using C = CreaseParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
-    {"crease.release", at<&C::release>, "", any(), "slow | quick", "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
-    {"crease.standard", at<&C::standard>, "", any(), "none | iso2313 | aatcc66", "load and times of a standard, with steps that grow: both 5 min under the load and 5 min to recover, ISO 2313 10 N, AATCC 66 500 g; other crease keys that are given win"},
-    {"crease.force", at<&C::force>, "N", positive(), "", "force of the plate"},
-    {"crease.radius", at<&C::radius>, "m", positive(), "", "radius of the rod"},
-    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "angle between the limbs of the pleat at rest"},
-    {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the full load"},
-    {"crease.lift", at<&C::lift>, "s", positive(), "", "slow release: time in which the plate rises"},
-    {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},
-    {"crease.grow-after", at<&C::grow_after>, "s", at_least(0), "", "time t of rest, under the load or after release, after which a step is twice as long; steps grow as 1 + t over it; 0: they do not grow"},
+    {"crease.fold", at<&C::fold>, "", any(), "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
+    {"crease.release", at<&C::release>, "", any(), "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
+    {"crease.standard", at<&C::standard>, "", any(), "load and times of a standard, with steps that grow: both 5 min under the load and 5 min to recover, ISO 2313 10 N, AATCC 66 500 g; other crease keys that are given win"},
+    {"crease.force", at<&C::force>, "N", positive(), "force of the plate"},
+    {"crease.radius", at<&C::radius>, "m", positive(), "radius of the rod"},
+    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "angle between the limbs of the pleat at rest"},
+    {"crease.hold", at<&C::hold>, "s", positive(), "time under the full load"},
+    {"crease.lift", at<&C::lift>, "s", positive(), "slow release: time in which the plate rises"},
+    {"crease.recovery", at<&C::recovery>, "s", positive(), "time to recover"},
+    {"crease.grow-after", at<&C::grow_after>, "s", at_least(0), "time t of rest, under the load or after release, after which a step is twice as long; steps grow as 1 + t over it; 0: they do not grow"},
 };
 // clang-format on
 
@@ -198,7 +198,7 @@ TablePlot opening_plot(const std::string& title, const C& choice, double end) {
                  "metrics.csv",
                  "time",
                  "opening"};
-  if (choice.fold == "plate") plot.plot.series = published(end);
+  if (choice.fold == CreaseFold::plate) plot.plot.series = published(end);
   return plot;
 }
 
@@ -211,7 +211,7 @@ TablePlot recovery_plot(const std::string& title, const C& choice) {
       "recovery.csv",
       "time since the load went",
       "opening"};
-  if (choice.standard != "none")
+  if (choice.standard != CreaseStandard::none)
     for (const render::Series& line : published(choice.recovery))
       plot.plot.series.push_back({line.label, {line.x.back()}, {line.y.back()}, Style::points, line.color});
   return plot;
@@ -237,11 +237,11 @@ void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene
 // Sets up the run; a standard replaces the defaults of the other keys.
 Setup set_up_crease(const CommandLine& line, C& choice) {
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
-  if (choice.standard != "none") {
+  if (choice.standard != CreaseStandard::none) {
     choice = by_standard(choice.standard);
     setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   }
-  if (choice.release == "quick" && choice.grow_after > 0)
+  if (choice.release == CreaseRelease::quick && choice.grow_after > 0)
     throw Error::invalid_input(
         "crease.release = quick moves, and its steps cannot grow: crease.grow-after = 0, or "
         "crease.release = slow")
@@ -252,19 +252,19 @@ Setup set_up_crease(const CommandLine& line, C& choice) {
 void crease_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up_crease(line, choice);
-  if (choice.release == "quick") let_go_quickly(setup.scene);
-  const bool pressed = choice.fold == "plate";
+  if (choice.release == CreaseRelease::quick) let_go_quickly(setup.scene);
+  const bool pressed = choice.fold == CreaseFold::plate;
   const double plate = !pressed ? 0.0
                        : setup.options.explain || Run::only_checks_requests
                            ? 2 * setup.scene.fabric.thickness  // nothing is pressed
                            : loaded_plate(setup.scene, choice);
-  Crease crease = pressed                ? creased(setup.scene, choice, plate)
-                  : choice.fold == "rod" ? wrapped(setup.scene, choice)
-                                         : pleated(setup.scene, choice);
+  Crease crease = pressed                          ? creased(setup.scene, choice, plate)
+                  : choice.fold == CreaseFold::rod ? wrapped(setup.scene, choice)
+                                                   : pleated(setup.scene, choice);
   if (choice.grow_after > 0)
     crease.time_steps = growing_steps(crease.times, crease.scene.step, choice.grow_after);
   setup.scene = crease.scene;
-  if (choice.fold != "pleat")  // a pleated cloth is not flat at rest
+  if (choice.fold != CreaseFold::pleat)  // a pleated cloth is not flat at rest
     probe_unless_told(setup.options, {setup.scene.cloth.length / 2, setup.scene.cloth.width / 2});
   Session session(line, setup, crease.cloth);
   if (session.is_over()) return;
@@ -277,7 +277,7 @@ void crease_once(const CommandLine& line) {
   run.metric("recovery_angle_deg", recovered.opening);
   run.metric("law_recovery_angle_deg", recovered.law ? recovered.law->opening() : NAN);
   if (!recovered.angle.empty()) run.metric("release_angle_deg", recovered.angle.front());
-  if (choice.standard != "none") run.metric("recovery_angle_15_s_deg", recovered.angle_at(15));
+  if (choice.standard != CreaseStandard::none) run.metric("recovery_angle_15_s_deg", recovered.angle_at(15));
   if (choice.grow_after > 0) write_recovery(run, recovered);
   run.metric("residual_curvature_per_m", largest_curvature(crease.scene, session.simulation()));
   if (pressed) {
@@ -300,7 +300,7 @@ void crease_once(const CommandLine& line) {
 VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
   C choice;
   const Setup setup = set_up_crease(line, choice);
-  const bool pressed = choice.fold == "plate";
+  const bool pressed = choice.fold == CreaseFold::plate;
   const double end = pressed ? creased(setup.scene, choice, 2 * setup.scene.fabric.thickness).times.end : 0;
   return {"Crease recovery",
           setup,

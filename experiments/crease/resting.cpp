@@ -30,11 +30,11 @@ void add_growing(std::vector<double>& lengths, double seconds, double step, doub
 
 }  // namespace
 
-CreaseParams by_standard(const std::string& standard) {
+CreaseParams by_standard(CreaseStandard standard) {
   constexpr double kFiveMinutes = 300, kHalfKilogram = 0.5 * 9.80665, kTenNewton = 10;
   CreaseParams choice;
   choice.standard = standard;
-  choice.force = standard == "aatcc66" ? kHalfKilogram : kTenNewton;
+  choice.force = standard == CreaseStandard::aatcc66 ? kHalfKilogram : kTenNewton;
   choice.hold = choice.recovery = kFiveMinutes;
   choice.grow_after = 1.0 / 30;
   return choice;

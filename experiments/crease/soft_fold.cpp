@@ -59,7 +59,7 @@ CreaseTimes soft_fold_times(const CreaseParams& choice) {
 Crease begun(const Scene& given, const CreaseParams& choice) {
   Crease crease{given, {}, soft_fold_times(choice)};
   crease.scene.seconds = crease.times.end;
-  crease.scene.cloth.shape = "strip";
+  crease.scene.cloth.shape = ClothOutline::strip;
   crease.scene.cloth.position = {0, 0, kAbove};
   return crease;
 }

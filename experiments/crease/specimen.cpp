@@ -107,7 +107,7 @@ Crease creased(const Scene& given, const CreaseParams& choice, double plate) {
   times.lifted = times.released + choice.lifting();
   times.end = times.lifted + choice.recovery;
   scene.seconds = times.end;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   const double ground = scene.fabric.thickness;  // the specimen lies on the plane's shell
   scene.cloth.position = {0, 0, ground};
   Obstacle plane;

@@ -2,32 +2,45 @@
 // Soft variants are wrapped around a rod, or pleated and pulled flat.
 #pragma once
 
+#include <array>
+
 #include "experiments/workbench/app/experiment.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
 
+enum class CreaseFold { plate, rod, pleat };
+constexpr std::array<const char*, 3> names(CreaseFold) { return {"plate", "rod", "pleat"}; }
+
+// A slow release goes from equilibrium to equilibrium, a quick one lets go in motion.
+enum class CreaseRelease { slow, quick };
+constexpr std::array<const char*, 2> names(CreaseRelease) { return {"slow", "quick"}; }
+
+// The standard that sets load and times.
+enum class CreaseStandard { none, iso2313, aatcc66 };
+constexpr std::array<const char*, 3> names(CreaseStandard) { return {"none", "iso2313", "aatcc66"}; }
+
 struct CreaseParams {
-  std::string fold = "plate";     // plate | rod | pleat
-  std::string release = "slow";   // slow: from equilibrium to equilibrium | quick: let go in motion
-  double force = 10;              // force of the plate [N] (ISO 2313)
-  double radius = 0.01;           // radius of the rod [m]
-  double pleat = 60;              // angle between the limbs of the pleated specimen at rest [degree]
-  double hold = 0.2;              // time under the whole load [s]
-  double lift = 1;                // time in which the plate of a slow release rises [s]
-  double recovery = 1;            // time to recover [s]
-  std::string standard = "none";  // the standard that sets load and times, or "none"
+  CreaseFold fold = CreaseFold::plate;
+  CreaseRelease release = CreaseRelease::slow;
+  double force = 10;     // force of the plate [N] (ISO 2313)
+  double radius = 0.01;  // radius of the rod [m]
+  double pleat = 60;     // angle between the limbs of the pleated specimen at rest [degree]
+  double hold = 0.2;     // time under the whole load [s]
+  double lift = 1;       // time in which the plate of a slow release rises [s]
+  double recovery = 1;   // time to recover [s]
+  CreaseStandard standard = CreaseStandard::none;
   double grow_after = 0;  // time of rest after which a step is twice the scene's [s]; 0: steps do not grow
 
   // Returns the time in which the plate rises [s]; after a quick release that is a tenth of a second.
-  double lifting() const { return release == "slow" ? lift : 0.1; }
+  double lifting() const { return release == CreaseRelease::slow ? lift : 0.1; }
 };
 
 // Returns the load and times of a standard, with steps that grow:
 //   iso2313   10 N for 5 min, read after 5 min (ISO 2313-2)
 //   aatcc66   500 g for 5 min, read after 5 min (AATCC 66)
-CreaseParams by_standard(const std::string& standard);
+CreaseParams by_standard(CreaseStandard standard);
 
 // The times at which the phases of the test end [s].
 struct CreaseTimes {

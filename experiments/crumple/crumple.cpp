@@ -29,7 +29,7 @@ struct CrumpleParams {
 using C = CrumpleParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},
+    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "residual curvature from which a place counts as part of a ridge"},
 };
 // clang-format on
 
@@ -144,7 +144,7 @@ void draw_all(Session& session, const RidgeMetrics& wrinkles) {
       scene.fabric.name + ", law " + scene.law + ": " + fold_caption(wrinkles.curvature, wrinkles.residual);
   for (const char* look : {"curvature", "residual"})
     pictures.picture_file(session.run().path(std::string(look) + ".png"), look, caption);
-  pictures.set_light("raking");
+  pictures.set_light(Lighting::raking);
   pictures.picture_file(session.run().path("raking.png"), "cloth", caption);
   for (const TablePlot& plot : ridge_plots(scene.fabric.name)) draw(session.run(), plot, scene.law);
 }
@@ -157,10 +157,8 @@ void limit_to_quick(Setup& setup) {
 void crumple_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
-  if (const ClothShape& cloth = setup.scene.cloth;
-      (cloth.shape == "square" || cloth.shape == "strip") && rest_file(setup.scene).empty())
-    probe_unless_told(setup.options,
-                      {cloth.length / 2, (cloth.shape == "square" ? cloth.length : cloth.width) / 2});
+  if (const ClothShape& cloth = setup.scene.cloth; cloth.is_rectangle() && rest_file(setup.scene).empty())
+    probe_unless_told(setup.options, {cloth.length / 2, cloth.side_along_weft() / 2});
   const std::vector<MetricRequest> requests = take_requests(setup);
   Session session(line, setup);
   if (session.is_over()) return;

@@ -23,12 +23,12 @@ using Json = nlohmann::ordered_json;
 using F = DiffFlags;
 // clang-format off
 const KeyRow<DiffFlags> kRows[] = {
-    {"out", at<&F::out>, "", any(), "", "heat map, a PNG file; of folders: a folder for heat maps and diff.csv"},
-    {"limits", at<&F::limits_file>, "", any(), "", "a TOML file of limits, or one of assets/limits by its name; flags take precedence"},
-    {"junit", at<&F::junit>, "", any(), "", "a JUnit XML file, with a test case for each picture"},
-    {"pixels-per-degree", at<&F::pixels_per_degree>, "1/degree", between(1, 1000), "", "of the eye that FLIP assumes; default 67: 3840 pixels on 0.7 m, seen from 0.7 m"},
-    {"map", at<&F::map>, "", any(), "steps | flip", "what heat maps show: the largest channel's difference, or FLIP"},
-    {"json", at<&F::json>, "", any(), "", "one JSON object on stdout"},
+    {"out", at<&F::out>, "", any(), "heat map, a PNG file; of folders: a folder for heat maps and diff.csv"},
+    {"limits", at<&F::limits_file>, "", any(), "a TOML file of limits, or one of assets/limits by its name; flags take precedence"},
+    {"junit", at<&F::junit>, "", any(), "a JUnit XML file, with a test case for each picture"},
+    {"pixels-per-degree", at<&F::pixels_per_degree>, "1/degree", between(1, 1000), "of the eye that FLIP assumes; default 67: 3840 pixels on 0.7 m, seen from 0.7 m"},
+    {"map", at<&F::map>, "", any(), "what heat maps show: the largest channel's difference, or FLIP"},
+    {"json", at<&F::json>, "", any(), "one JSON object on stdout"},
 };
 // clang-format on
 

@@ -73,7 +73,7 @@ std::pair<Measures, render::Image> compare_looks(const render::Image& a, const r
                                                  const DiffFlags& flags) {
   const render::Plane flip = render::flip_map(a, b, flags.pixels_per_degree);
   return {picture_measures(a, b, flip),
-          flags.map == "flip" ? render::heat_map(flip) : render::heat_map(a, b)};
+          flags.map == HeatMap::flip ? render::heat_map(flip) : render::heat_map(a, b)};
 }
 
 }  // namespace

@@ -15,12 +15,16 @@ namespace hysteron::experiments {
 inline constexpr const char* kHeatFolder = "heat";
 inline constexpr const char* kDiffTable = "diff.csv";
 
+// The quantity of heat maps: the largest difference of a channel, or FLIP.
+enum class HeatMap { steps, flip };
+constexpr std::array<const char*, 2> names(HeatMap) { return {"steps", "flip"}; }
+
 struct DiffFlags {
   Measures limits = no_limits();
   std::string limits_file;                              // "" if there is none
   Limits from_file;                                     // contents of that file
   double pixels_per_degree = render::kPixelsPerDegree;  // assumed by FLIP for the eye
-  std::string map = "steps";                            // quantity of the heat maps: steps | flip
+  HeatMap map = HeatMap::steps;
   std::string out;    // a PNG file, or a folder for folders; "": nothing is written
   std::string junit;  // an XML file; "" if there is none
   bool json = false;

@@ -16,12 +16,12 @@ namespace {
 using M = Measures;
 // clang-format off
 const KeyRow<Measures> kLimitRows[] = {
-    {"max-mean", at<&M::mean_abs>, "8-bit steps", at_least(0), "", "most of mean_abs"},
-    {"max-rmse", at<&M::rmse>, "8-bit steps", at_least(0), "", "most of rmse"},
-    {"min-psnr", at<&M::psnr_db>, "dB", any(), "", "least of psnr_db"},
-    {"min-ssim", at<&M::ssim>, "", between(-1, 1), "", "least of ssim"},
-    {"max-flip", at<&M::flip>, "", between(0, 1), "", "most of flip"},
-    {"max-pixels-over-8", at<&M::pixels_over_8_percent>, "percent", between(0, 100), "", "most of pixels_over_8_percent"},
+    {"max-mean", at<&M::mean_abs>, "8-bit steps", at_least(0), "most of mean_abs"},
+    {"max-rmse", at<&M::rmse>, "8-bit steps", at_least(0), "most of rmse"},
+    {"min-psnr", at<&M::psnr_db>, "dB", any(), "least of psnr_db"},
+    {"min-ssim", at<&M::ssim>, "", between(-1, 1), "least of ssim"},
+    {"max-flip", at<&M::flip>, "", between(0, 1), "most of flip"},
+    {"max-pixels-over-8", at<&M::pixels_over_8_percent>, "percent", between(0, 100), "most of pixels_over_8_percent"},
 };
 
 struct MetricLimit {
@@ -29,8 +29,8 @@ struct MetricLimit {
   double max_difference = 0;
 };
 const KeyRow<MetricLimit> kMetricRows[] = {
-    {"name", at<&MetricLimit::name>, "", any(), "", "of the metric"},
-    {"max-difference", at<&MetricLimit::max_difference>, "", at_least(0), "", "in the metric's unit"},
+    {"name", at<&MetricLimit::name>, "", any(), "of the metric"},
+    {"max-difference", at<&MetricLimit::max_difference>, "", at_least(0), "in the metric's unit"},
 };
 // clang-format on
 

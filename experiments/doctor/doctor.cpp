@@ -16,8 +16,8 @@ struct DoctorFlags {
 };
 // clang-format off
 const KeyRow<DoctorFlags> kRows[] = {
-    {"out", at<&DoctorFlags::out>, "", any(), "", "where runs would write: whose disk is looked at; nothing is written there"},
-    {"json", at<&DoctorFlags::json>, "", any(), "", "one JSON object on stdout: `findings`, `devices` as in list, `ready`"},
+    {"out", at<&DoctorFlags::out>, "", any(), "where runs would write: whose disk is looked at; nothing is written there"},
+    {"json", at<&DoctorFlags::json>, "", any(), "one JSON object on stdout: `findings`, `devices` as in list, `ready`"},
 };
 // clang-format on
 

@@ -75,7 +75,7 @@ std::string disc_fault(const Cloth& cloth, const Specimen& disc) {
 
 std::string name_of_cloth(const Scene& scene) {
   const std::string file = rest_file(scene);
-  return file.empty() ? shown(scene, "cloth.shape", scene.cloth.shape, "") : "mesh " + file;
+  return file.empty() ? shown(scene, "cloth.shape", enum_name(scene.cloth.shape), "") : "mesh " + file;
 }
 
 // Returns the strokes up and down that begin when the plate has let go.
@@ -101,13 +101,13 @@ Specimen disc_specimen(const Scene& scene, const Cloth& cloth) {
   return rest_file(scene).empty() ? Specimen{scene.cloth.radius, scene.cloth.position} : found;
 }
 
-double specimen_radius(const std::string& standard) { return standard == "jis" ? 0.127 : 0.15; }
+double specimen_radius(DrapeStandard standard) { return standard == DrapeStandard::jis ? 0.127 : 0.15; }
 
-DrapeParams drape_by_standard(const std::string& standard) {
+DrapeParams drape_by_standard(DrapeStandard standard) {
   DrapeParams choice;
   choice.standard = standard;
-  if (standard != "jis") return choice;
-  choice.release = "shaken";
+  if (standard != DrapeStandard::jis) return choice;
+  choice.release = DrapeRelease::shaken;
   choice.disc = 0.0635;
   choice.wait = 60;
   return choice;
@@ -118,9 +118,9 @@ bool is_own_tester(const PublishedNumber& number, const DrapeParams& choice, dou
   const auto is_near = [](double size, double standard) {
     return std::abs(size - standard) <= kRound * standard;
   };
-  const DrapeParams own = drape_by_standard(number.tester);
+  const DrapeParams own = drape_by_standard(choice.standard);
   return is_near(choice.disc, own.disc) &&
-         is_near(specimen_radius, experiments::specimen_radius(number.tester)) &&
+         is_near(specimen_radius, experiments::specimen_radius(choice.standard)) &&
          choice.release == own.release && choice.offset == 0 && choice.curl == 0 && choice.uneven == 0 &&
          choice.shakes == own.shakes && choice.stroke == own.stroke && choice.period == own.period &&
          choice.wait == own.wait;
@@ -131,10 +131,11 @@ std::string other_tester_message(const Fabric& fabric, const DrapeParams& choice
     const auto found = fabric.published.find(name);
     if (found == fabric.published.end()) continue;
     const PublishedNumber& number = found->second;
-    if (number.tester.empty()) return "the fabric's file names no tester of it (tester = iso9073 | jis)";
-    if (number.tester != choice.standard) return "is of another tester: --drape.standard " + number.tester;
+    if (!number.tester) return "the fabric's file names no tester of it (tester = iso9073 | jis)";
+    if (number.tester != choice.standard)
+      return "is of another tester: --drape.standard " + enum_name(*number.tester);
     if (!is_own_tester(number, choice, specimen_radius))
-      return "is of other sizes or another way: --drape.standard " + number.tester +
+      return "is of other sizes or another way: --drape.standard " + enum_name(*number.tester) +
              " without drape.disc and cloth.radius, drape.release, shakes, stroke, period, wait, offset, "
              "curl and uneven";
   }
@@ -191,9 +192,9 @@ void add_apparatus(Scene& scene, const DrapeParams& choice, const Specimen& spec
   clamp.height = 0.01;
   clamp.center = {0, 0, 2 * activation_distance + clamp.height / 2};
   clamp.visible = false;
-  if (choice.release == "shaken") pedestal.motion = clamp.motion = shaking(choice);
+  if (choice.release == DrapeRelease::shaken) pedestal.motion = clamp.motion = shaking(choice);
   scene.obstacle.insert(scene.obstacle.end(), {pedestal, clamp});
-  if (choice.release == "dropped") return;
+  if (choice.release == DrapeRelease::dropped) return;
   Obstacle plate = clamp;
   plate.motion = {};
   plate.radius = specimen.radius + 0.01;
@@ -246,7 +247,7 @@ void make_uneven(ClothMesh& mesh, const DrapeParams& choice, unsigned seed) {
 
 void seed_folds(std::vector<Eigen::Vector3d>& start, const DrapeParams& choice, double radius) {
   if (choice.folds == 0) return;
-  if (choice.release != "dropped")
+  if (choice.release != DrapeRelease::dropped)
     throw Error::invalid_input("drape.folds needs drape.release = dropped: a plate would press them flat")
         .with_key("drape.folds", std::to_string(choice.folds));
   for (Eigen::Vector3d& x : start) {

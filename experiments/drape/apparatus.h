@@ -2,6 +2,7 @@
 // specimen, the plate that lowers its free ring, the shaking of the Japanese test, and the specimen.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "sim/scene/cloth.h"
@@ -18,40 +19,48 @@ struct Specimen {
 // Error::invalid_input unless it is a disc that lies flat.
 Specimen disc_specimen(const Scene& scene, const Cloth& cloth);
 
-struct DrapeParams {
-  std::string standard = "iso9073";  // the standard that sets sizes and release
-  std::string release = "lowered";   // lowered: a plate under the ring sinks; dropped: it is gone at once;
-                                     // relifted: lowered, lifted flat again, lowered a second time; shaken:
-                                     // lowered, then pedestal and disc go up and down
-  int folds = 0;                     // dropped: of the flat ring, which begin the folds; 0: none
-  double disc = 0.09;                // pedestal's radius [m]
-  double lowering = 3;               // time in which the plate sinks [s]
-  double pause = 1;                  // relifted: at rest below, before the plate lifts the ring [s]
-  int shakes = 3;                    // of these strokes:
-  double stroke = 0.03;              // how far up [m]
-  double period = 0.5;               // up and down [s]
-  double wait = 0;                   // at rest, until the shadow is read [s]
-  double still = 2e-3;               // settled when no vertex moves faster [m/s]
-  double plate = 0.12;               // how far the plate sinks [m]
-  double offset = 0;                 // of the specimen's middle from the pedestal's axis, along warp [m]
-  double curl = 0;                   // curvature along warp with which the specimen is at rest [1/m]
-  double uneven = 0;                 // standard deviation of the rigidity along the cloth, over its mean
-  double uneven_length = 0.02;       // over which the rigidity stays alike [m]
+// How the overhanging ring is released.  lowered: a plate under it sinks; dropped: the plate is gone at once;
+// relifted: lowered, lifted flat again, lowered a second time; shaken: lowered, then pedestal and disc go up
+// and down.
+enum class DrapeRelease { lowered, dropped, relifted, shaken };
+constexpr std::array<const char*, 4> names(DrapeRelease) {
+  return {"lowered", "dropped", "relifted", "shaken"};
+}
 
-  bool is_relifted() const { return release == "relifted"; }
-  int strokes() const { return release == "dropped" ? 0 : is_relifted() ? 3 : 1; }  // of the plate
+struct DrapeParams {
+  DrapeStandard standard = DrapeStandard::iso9073;  // it sets sizes and release
+  DrapeRelease release = DrapeRelease::lowered;
+  int folds = 0;                // dropped: of the flat ring, which begin the folds; 0: none
+  double disc = 0.09;           // pedestal's radius [m]
+  double lowering = 3;          // time in which the plate sinks [s]
+  double pause = 1;             // relifted: at rest below, before the plate lifts the ring [s]
+  int shakes = 3;               // of these strokes:
+  double stroke = 0.03;         // how far up [m]
+  double period = 0.5;          // up and down [s]
+  double wait = 0;              // at rest, until the shadow is read [s]
+  double still = 2e-3;          // settled when no vertex moves faster [m/s]
+  double plate = 0.12;          // how far the plate sinks [m]
+  double offset = 0;            // of the specimen's middle from the pedestal's axis, along warp [m]
+  double curl = 0;              // curvature along warp with which the specimen is at rest [1/m]
+  double uneven = 0;            // standard deviation of the rigidity along the cloth, over its mean
+  double uneven_length = 0.02;  // over which the rigidity stays alike [m]
+
+  bool is_relifted() const { return release == DrapeRelease::relifted; }
+  int strokes() const {
+    return release == DrapeRelease::dropped ? 0 : is_relifted() ? 3 : 1;
+  }                                                       // of the plate
   double first_rest() const { return lowering + pause; }  // relifted: when the plate begins to lift [s]
   double lowered() const {                                // when nothing carries the ring any more [s]
     return strokes() * lowering + (is_relifted() ? pause : 0);
   }
-  double released() const { return lowered() + (release == "shaken" ? shakes * period : 0); }
+  double released() const { return lowered() + (release == DrapeRelease::shaken ? shakes * period : 0); }
 };
 
 // The radius of a standard's specimen [m], and its parameters: `iso9073` has the defaults, with a specimen of
 // 30 cm on a disc of 18 cm; `jis` has one of 25.4 cm on 12.7 cm, shaken three times and read after a minute
 // (a Japanese teaching page on the tester; stroke and period, which no source states, are chosen here).
-double specimen_radius(const std::string& standard);
-DrapeParams drape_by_standard(const std::string& standard);
+double specimen_radius(DrapeStandard standard);
+DrapeParams drape_by_standard(DrapeStandard standard);
 
 // True if a published number was measured on this tester: the fabric's file names its standard, with the
 // sizes and the release of that standard.

@@ -20,21 +20,21 @@ namespace {
 using D = DrapeParams;
 // clang-format off
 const KeyRow<DrapeParams> kRows[] = {
-    {"drape.standard", at<&D::standard>, "", any(), "iso9073 | jis", "sizes and release of a standard: a specimen of 30 cm on a disc of 18 cm, lowered; or of 25.4 cm on 12.7 cm, shaken three times and read after a minute; cloth.radius and other drape keys that are given win"},
-    {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted | shaken", "how the overhanging ring is released: a plate below it sinks; all at once; the plate sinks, lifts it flat again and sinks a second time; or it sinks, and pedestal and disc shake the specimen"},
-    {"drape.folds", at<&D::folds>, "", between(0, 100), "", "dropped: so many waves, 2 mm high, raise the ring at the start and become its folds, the same under every method; 0: folds form by themselves"},
-    {"drape.disc", at<&D::disc>, "m", positive(), "", "radius of the pedestal"},
-    {"drape.lowering", at<&D::lowering>, "s", positive(), "", "time in which the plate sinks"},
-    {"drape.pause", at<&D::pause>, "s", at_least(0), "", "relifted: how long the ring hangs at rest before the plate lifts it; its outline then is the first of two"},
-    {"drape.shakes", at<&D::shakes>, "", between(1, 100), "", "shaken: how often it goes up and down"},
-    {"drape.stroke", at<&D::stroke>, "m", positive(), "", "shaken: how far up"},
-    {"drape.period", at<&D::period>, "s", positive(), "", "shaken: time of one up and down"},
-    {"drape.wait", at<&D::wait>, "s", at_least(0), "", "time at rest until the shadow is read, in which laws relax that do"},
-    {"drape.offset", at<&D::offset>, "m", at_least(0), "", "of the specimen's middle from the pedestal's axis, less than drape.disc and than the width of the ring"},
-    {"drape.curl", at<&D::curl>, "1/m", between(-20, 20), "", "curvature along warp with which the specimen is at rest, positive where its rim stands up"},
-    {"drape.uneven", at<&D::uneven>, "", between(0, 0.5), "", "standard deviation over the mean of a rigidity in bending that varies along the cloth, drawn by the seed"},
-    {"drape.uneven-length", at<&D::uneven_length>, "m", between(1e-3, 1), "", "over which that rigidity stays alike"},
-    {"drape.still", at<&D::still>, "m/s", positive(), "", "the motion ends when no vertex moves faster from one look at it to the next, thirty a second; then the equilibrium nearby is sought"},
+    {"drape.standard", at<&D::standard>, "", any(), "sizes and release of a standard: a specimen of 30 cm on a disc of 18 cm, lowered; or of 25.4 cm on 12.7 cm, shaken three times and read after a minute; cloth.radius and other drape keys that are given win"},
+    {"drape.release", at<&D::release>, "", any(), "how the overhanging ring is released: a plate below it sinks; all at once; the plate sinks, lifts it flat again and sinks a second time; or it sinks, and pedestal and disc shake the specimen"},
+    {"drape.folds", at<&D::folds>, "", between(0, 100), "dropped: so many waves, 2 mm high, raise the ring at the start and become its folds, the same under every method; 0: folds form by themselves"},
+    {"drape.disc", at<&D::disc>, "m", positive(), "radius of the pedestal"},
+    {"drape.lowering", at<&D::lowering>, "s", positive(), "time in which the plate sinks"},
+    {"drape.pause", at<&D::pause>, "s", at_least(0), "relifted: how long the ring hangs at rest before the plate lifts it; its outline then is the first of two"},
+    {"drape.shakes", at<&D::shakes>, "", between(1, 100), "shaken: how often it goes up and down"},
+    {"drape.stroke", at<&D::stroke>, "m", positive(), "shaken: how far up"},
+    {"drape.period", at<&D::period>, "s", positive(), "shaken: time of one up and down"},
+    {"drape.wait", at<&D::wait>, "s", at_least(0), "time at rest until the shadow is read, in which laws relax that do"},
+    {"drape.offset", at<&D::offset>, "m", at_least(0), "of the specimen's middle from the pedestal's axis, less than drape.disc and than the width of the ring"},
+    {"drape.curl", at<&D::curl>, "1/m", between(-20, 20), "curvature along warp with which the specimen is at rest, positive where its rim stands up"},
+    {"drape.uneven", at<&D::uneven>, "", between(0, 0.5), "standard deviation over the mean of a rigidity in bending that varies along the cloth, drawn by the seed"},
+    {"drape.uneven-length", at<&D::uneven_length>, "m", between(1e-3, 1), "over which that rigidity stays alike"},
+    {"drape.still", at<&D::still>, "m/s", positive(), "the motion ends when no vertex moves faster from one look at it to the next, thirty a second; then the equilibrium nearby is sought"},
 };
 // clang-format on
 
@@ -53,7 +53,7 @@ Setup defaults() {
   // This integrator has the least numerical damping (docs/integrators.md).
   scene.integrator = Integrator::tr_bdf2;
   scene.step = 1.0 / 120;
-  scene.cloth.shape = "disc";
+  scene.cloth.shape = ClothOutline::disc;
   scene.cloth.radius = 0.15;
   scene.triangles = 6000;
   scene.seconds = 3.4;  // time after the plate's
@@ -215,8 +215,8 @@ Setup set_up_drape(const CommandLine& line, D& choice) {
     choice = of;
     return set_up(line, std::move(default_setup), bind(kRows, choice), [&](Setup& setup) {
       limit_to_quick(setup);
-      choice.lowering =
-          std::min(choice.lowering, choice.release == "lowered" ? kGentleQuickLowering : kQuickLowering);
+      choice.lowering = std::min(
+          choice.lowering, choice.release == DrapeRelease::lowered ? kGentleQuickLowering : kQuickLowering);
     });
   };
   CommandLine undecided = line;

@@ -18,9 +18,16 @@
 namespace hysteron::experiments {
 namespace {
 
+// The direction along which a strip is cut, by the letter of the tester's records: length (warp), width
+// (weft), bias.
+enum class CutAlong { L, W, B };
+constexpr std::array<const char*, 3> names(CutAlong) { return {"L", "W", "B"}; }
+
 struct TestFlags {
   std::string fabric = Fabric{}.name;
-  std::string data, units = "si", direction = "L", test = "D1";
+  std::string data, test = "D1";
+  TesterUnits units = TesterUnits::si;
+  CutAlong direction = CutAlong::L;
   double gauge = 0.021, slack = 0.0015, width = 0.04;
   std::string compressions = "0.0038,0.0063,0.0088";
   int steps = 60;
@@ -30,16 +37,16 @@ struct TestFlags {
 using F = TestFlags;
 // clang-format off
 const KeyRow<TestFlags> kRows[] = {
-    {"fabric.name", at<&F::fabric>, "", any(), "", "NAME or FILE, as `fit --fab` writes it or any other"},
-    {"fab.data", at<&F::data>, "", any(), "", "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
-    {"units", at<&F::units>, "", any(), "si | fab", "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
-    {"fab.direction", at<&F::direction>, "", any(), "L | W | B", "along which the strip is cut: length (warp), width (weft), bias"},
-    {"fab.test", at<&F::test>, "", any(), "", "U1 bends up, D1 down, S1 stretches; another number is another gauge"},
-    {"fab.gauge", at<&F::gauge>, "m", between(1e-3, 1), "", "without data: length of the strip between the clamps"},
-    {"fab.slack", at<&F::slack>, "m", positive(), "", "without data: by which the clamps are closer at first, in bending"},
-    {"fab.compressions", at<&F::compressions>, "", any(), "", "without data: of the cycles, from the gauge on, separated by commas [m]"},
-    {"fab.width", at<&F::width>, "m", between(1e-3, 1), "", "without data: of the strip"},
-    {"fab.steps", at<&F::steps>, "", between(4, 1e5), "", "without data: rows of a branch, as they are written; areas and peaks are those of 60 rows or more"},
+    {"fabric.name", at<&F::fabric>, "", any(), "NAME or FILE, as `fit --fab` writes it or any other"},
+    {"fab.data", at<&F::data>, "", any(), "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
+    {"units", at<&F::units>, "", any(), "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
+    {"fab.direction", at<&F::direction>, "", any(), "along which the strip is cut: length (warp), width (weft), bias"},
+    {"fab.test", at<&F::test>, "", any(), "U1 bends up, D1 down, S1 stretches; another number is another gauge"},
+    {"fab.gauge", at<&F::gauge>, "m", between(1e-3, 1), "without data: length of the strip between the clamps"},
+    {"fab.slack", at<&F::slack>, "m", positive(), "without data: by which the clamps are closer at first, in bending"},
+    {"fab.compressions", at<&F::compressions>, "", any(), "without data: of the cycles, from the gauge on, separated by commas [m]"},
+    {"fab.width", at<&F::width>, "m", between(1e-3, 1), "without data: of the strip"},
+    {"fab.steps", at<&F::steps>, "", between(4, 1e5), "without data: rows of a branch, as they are written; areas and peaks are those of 60 rows or more"},
 };
 // clang-format on
 constexpr int kQuickSteps = 20;
@@ -70,7 +77,7 @@ FabLoops loops_without_data(const TestFlags& flags, int steps) {
                       amplitude, flags.slack, flags.gauge))
           .with_key("fab.compressions", flags.compressions);
   FabLoops loops = made_up_loops(flags.test, flags.gauge, flags.slack, amplitudes, steps);
-  loops.direction = flags.direction;
+  loops.direction = enum_name(flags.direction);
   loops.width = flags.width;
   check_clamp_path(loops, "loops to be simulated", "fab");  // as for fab.csv when it is read
   return loops;
@@ -136,15 +143,14 @@ int run_test(const CommandLine& line) {
   check_test(flags.test);
   const std::vector<std::string> warnings = checked_fabric_warnings(flags.fabric);
   const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
-  const FabStrip strip = fab_fabric(fabric).strip(flags.direction);
+  const FabStrip strip = fab_fabric(fabric).strip(enum_name(flags.direction));
   const bool measured = !flags.data.empty(), bends = flags.test.front() != 'S';
   const auto asks_for = [&](const FabLoops& one) {
-    return one.direction == flags.direction && one.test == flags.test;
+    return one.direction == enum_name(flags.direction) && one.test == flags.test;
   };
-  const FabLoops loops = measured
-                             ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab", {asks_for}),
-                                          flags.direction, flags.test)
-                             : loops_without_data(flags, flags.steps);
+  const FabLoops loops = measured ? find_loops(read_fab(flags.data, flags.units, "fab", {asks_for}),
+                                               enum_name(flags.direction), flags.test)
+                                  : loops_without_data(flags, flags.steps);
   Run run(line, flags.options, to_json(keys));
   for (const auto* texts : {&warnings, &loops.warnings})
     for (const std::string& text : *texts) run.warn(text);

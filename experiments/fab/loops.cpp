@@ -65,14 +65,6 @@ BranchForces ComparedLoops::measured_forces() const {
   return forces;
 }
 
-TesterUnits tester_units(const std::string& name) {
-  if (name == "si") return TesterUnits::si;
-  if (name == "fab") return TesterUnits::fab;
-  throw Error::invalid_input("units = " + name +
-                             " must be si (m, N) | fab (cm, gf) for loops of a FAB tester")
-      .with_key("units", name);
-}
-
 void add_metrics(Run& run, const ComparedLoops& compared) {
   const BranchForces measured = compared.measured_forces();
   for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {

@@ -20,9 +20,6 @@ struct ComparedLoops {
   BranchForces measured_forces() const;  // relative to that offset [N/m]
 };
 
-// Parses `si` or `fab`; throws Error::invalid_input for others.
-TesterUnits tester_units(const std::string& name);
-
 // Adds area, peak force and force range of each cycle, also as measured_...; rms, zero and energy balance.
 void add_metrics(Run& run, const ComparedLoops& compared);
 // Writes the columns that `fit --fab` reads, with the measured force last.

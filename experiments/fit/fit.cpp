@@ -34,6 +34,10 @@ struct DecayFlags {
   double noise = 5e-4;  // standard deviation of the amplitudes [m]
 };
 
+// Units of the data: SI, or those of the tester that they are from.
+enum class FitUnits { si, kes, fab };
+constexpr std::array<const char*, 3> names(FitUnits) { return {"si", "kes", "fab"}; }
+
 struct FitFlags {
   std::string loop, virgin_file, sheet, fast_sheet;
   bool wants_template = false;
@@ -48,7 +52,7 @@ struct FitFlags {
   double density = kNone, thickness = kNone;
   FabFlags fab;
   DecayFlags decay;
-  std::string units = "si";
+  FitUnits units = FitUnits::si;
   Options options;
 };
 
@@ -59,51 +63,48 @@ using F = FitFlags;
 using M = Measured;
 // clang-format off
 const KeyRow<FitFlags> kRows[] = {
-    {"loop", at<&F::loop>, "", any(), "", "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
-    {"law", at<&F::law>, "", any(), "", "of the loop: a name, names separated by commas, or all, to compare"},
-    {"param", at<&F::param>, "", any(), "", "parameters of that law"},
-    {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
-    {"curvature-offset", at<&F::curvature_offset>, "", any(), "", "find the zero of the measured curvatures, too"},
-    {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
-    {"fab", at<&F::fab, &FabFlags::file>, "", any(), "", "loops of a FAB tester, strips buckled between clamps: CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m; needs fabric.density"},
-    {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
-    {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
-    {"fab.cycles", at<&F::fab, &FabFlags::cycles>, "", any(), "", "that are fitted, separated by commas, the first being 1"},
-    {"fab.friction", at<&F::fab, &FabFlags::friction>, "", any(), "chapter | shaped | stops", "what is sought: the curvature k0 at which friction saturates; median and spread of a lognormal distribution of curvatures at which it slips; or a stiffness at each of fab.thresholds"},
-    {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "", "of stops, separated by commas [1/m]"},
-    {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "", "of the measured forces, standard deviation; a fit that misses them by more than three times as much (rms) is refused"},
-    {"decay", at<&F::decay, &DecayFlags::file>, "", any(), "", "amplitudes of the free end of a hanging strip that was let go, turn by turn: CSV with `time [s]`, `amplitude [m]`; needs decay.length, fabric.density and kes.b"},
-    {"decay.length", at<&F::decay, &DecayFlags::length>, "m", at_least(0), "", "of the strip below the clamp"},
-    {"decay.noise", at<&F::decay, &DecayFlags::noise>, "m", positive(), "", "of the amplitudes, standard deviation"},
-    {"units", at<&F::units>, "", any(), "si | kes | fab", "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
-    {"kes-sheet", at<&F::sheet>, "", any(), "", "the sheet of a KES-F laboratory, CSV or TOML: sixteen numbers along warp and weft as they are printed"},
-    {"fast-sheet", at<&F::fast_sheet>, "", any(), "", "the sheet of a FAST laboratory or of a cantilever alone (ASTM D1388), CSV or TOML: bending lengths and weight, and what else there is"},
-    {"template", at<&F::wants_template>, "", any(), "", "print such a sheet to fill in, and nothing else"},
-    {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
-    {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
-    {"virgin.b1-stderr", at<&F::virgin, &VirginNumbers::b1, &M::standard_error>, "N m", at_least(0), "", "standard error"},
-    {"virgin.c1-stderr", at<&F::virgin, &VirginNumbers::c1, &M::standard_error>, "N m^2", at_least(0), "", "standard error"},
-    {"virgin.file", at<&F::virgin_file>, "", any(), "", "specimens of a fabric: CSV with `b1 [N m]`, `c1 [N m2]`"},
-    {"kes.b", at<&F::kes, &KesNumbers::b, &M::value>, "N m", any(), "", "B of KES-FB2 (1 gf cm^2/cm = 9.80665e-5 N m)"},
-    {"kes.2hb", at<&F::kes, &KesNumbers::two_hb, &M::value>, "N", any(), "", "2HB of KES-FB2 (1 gf cm/cm = 9.80665e-3 N)"},
-    {"kes.k0", at<&F::kes, &KesNumbers::k0, &M::value>, "1/m", positive(), "", "where friction saturates, if known"},
-    {"kes.b-stderr", at<&F::kes, &KesNumbers::b, &M::standard_error>, "N m", at_least(0), "", "standard error"},
-    {"kes.2hb-stderr", at<&F::kes, &KesNumbers::two_hb, &M::standard_error>, "N", at_least(0), "", "standard error"},
-    {"kes.k0-stderr", at<&F::kes, &KesNumbers::k0, &M::standard_error>, "1/m", at_least(0), "", "standard error"},
-    {"assume.ratio", at<&F::assume, &Assumptions::ratio>, "", between(0.01, 0.99), "", "b2/b1 where the data leave b2 and k0 open"},
-    {"assume.k0", at<&F::assume, &Assumptions::k0>, "1/m", positive(), "", "k0 where the data leave only that open"},
-    {"name", at<&F::name>, "", any(), "", "of the fabric"},
-    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "", "for fabric.toml, and the weight of a strip"},
-    {"fabric.thickness", at<&F::thickness>, "m", positive(), "", "for fabric.toml"},
+    {"loop", at<&F::loop>, "", any(), "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
+    {"law", at<&F::law>, "", any(), "of the loop: a name, names separated by commas, or all, to compare"},
+    {"param", at<&F::param>, "", any(), "parameters of that law"},
+    {"offset", at<&F::offset>, "", any(), "find the zero of the measured moments, too"},
+    {"curvature-offset", at<&F::curvature_offset>, "", any(), "find the zero of the measured curvatures, too"},
+    {"ripple", at<&F::ripple>, "", between(0, 0.5), "curvature that comes back by less than this share of its range is noise"},
+    {"fab", at<&F::fab, &FabFlags::file>, "", any(), "loops of a FAB tester, strips buckled between clamps: CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m; needs fabric.density"},
+    {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "of these loops, separated by commas: the first is warp, the second weft; none: all"},
+    {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
+    {"fab.cycles", at<&F::fab, &FabFlags::cycles>, "", any(), "that are fitted, separated by commas, the first being 1"},
+    {"fab.friction", at<&F::fab, &FabFlags::friction>, "", any(), "what is sought: the curvature k0 at which friction saturates; median and spread of a lognormal distribution of curvatures at which it slips; or a stiffness at each of fab.thresholds"},
+    {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "of stops, separated by commas [1/m]"},
+    {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "of the measured forces, standard deviation; a fit that misses them by more than three times as much (rms) is refused"},
+    {"decay", at<&F::decay, &DecayFlags::file>, "", any(), "amplitudes of the free end of a hanging strip that was let go, turn by turn: CSV with `time [s]`, `amplitude [m]`; needs decay.length, fabric.density and kes.b"},
+    {"decay.length", at<&F::decay, &DecayFlags::length>, "m", at_least(0), "of the strip below the clamp"},
+    {"decay.noise", at<&F::decay, &DecayFlags::noise>, "m", positive(), "of the amplitudes, standard deviation"},
+    {"units", at<&F::units>, "", any(), "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
+    {"kes-sheet", at<&F::sheet>, "", any(), "the sheet of a KES-F laboratory, CSV or TOML: sixteen numbers along warp and weft as they are printed"},
+    {"fast-sheet", at<&F::fast_sheet>, "", any(), "the sheet of a FAST laboratory or of a cantilever alone (ASTM D1388), CSV or TOML: bending lengths and weight, and what else there is"},
+    {"template", at<&F::wants_template>, "", any(), "print such a sheet to fill in, and nothing else"},
+    {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "M = b1 K + c1 K^2 on loading"},
+    {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "< 0"},
+    {"virgin.b1-stderr", at<&F::virgin, &VirginNumbers::b1, &M::standard_error>, "N m", at_least(0), "standard error"},
+    {"virgin.c1-stderr", at<&F::virgin, &VirginNumbers::c1, &M::standard_error>, "N m^2", at_least(0), "standard error"},
+    {"virgin.file", at<&F::virgin_file>, "", any(), "specimens of a fabric: CSV with `b1 [N m]`, `c1 [N m2]`"},
+    {"kes.b", at<&F::kes, &KesNumbers::b, &M::value>, "N m", any(), "B of KES-FB2 (1 gf cm^2/cm = 9.80665e-5 N m)"},
+    {"kes.2hb", at<&F::kes, &KesNumbers::two_hb, &M::value>, "N", any(), "2HB of KES-FB2 (1 gf cm/cm = 9.80665e-3 N)"},
+    {"kes.k0", at<&F::kes, &KesNumbers::k0, &M::value>, "1/m", positive(), "where friction saturates, if known"},
+    {"kes.b-stderr", at<&F::kes, &KesNumbers::b, &M::standard_error>, "N m", at_least(0), "standard error"},
+    {"kes.2hb-stderr", at<&F::kes, &KesNumbers::two_hb, &M::standard_error>, "N", at_least(0), "standard error"},
+    {"kes.k0-stderr", at<&F::kes, &KesNumbers::k0, &M::standard_error>, "1/m", at_least(0), "standard error"},
+    {"assume.ratio", at<&F::assume, &Assumptions::ratio>, "", between(0.01, 0.99), "b2/b1 where the data leave b2 and k0 open"},
+    {"assume.k0", at<&F::assume, &Assumptions::k0>, "1/m", positive(), "k0 where the data leave only that open"},
+    {"name", at<&F::name>, "", any(), "of the fabric"},
+    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "for fabric.toml, and the weight of a strip"},
+    {"fabric.thickness", at<&F::thickness>, "m", positive(), "for fabric.toml"},
 };
 // clang-format on
 
 Keys bind_flags(FitFlags& flags) {
   Keys keys = bind(kRows, flags);
-  for (BoundKey& key : bind_output_options(flags.options)) {
-    if (key.description.path == "quick" || key.description.path == "no-images") continue;
-    keys.push_back(std::move(key));
-  }
+  for (BoundKey& key : bind_options_of(Takers::all, flags.options)) keys.push_back(std::move(key));
   return keys;
 }
 
@@ -146,8 +147,8 @@ void rank(std::vector<Identification>& fits) {
 }
 
 Answer from_loop(const FitFlags& flags) {
-  const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
-                                                   : read_series(flags.loop, flags.ripple, "fit");
+  const MomentSeries series = flags.units == FitUnits::kes ? read_kes_series(flags.loop, flags.ripple, "fit")
+                                                           : read_series(flags.loop, flags.ripple, "fit");
   Answer answer{{}, series.name};
   std::vector<LawRequest> laws;
   for (const std::string& name : requested_laws(flags.law)) {
@@ -189,12 +190,12 @@ Answer from_kes(const FitFlags& flags) {
 
 // Throws unless the tester's own units go with its data: kes with a loop of bending, fab with buckled strips.
 void check_units(const FitFlags& flags) {
-  const std::string other = flags.loop.empty() ? "kes" : "fab";
+  const FitUnits other = flags.loop.empty() ? FitUnits::kes : FitUnits::fab;
   if (flags.units == other)
-    throw Error::invalid_input("units = " + flags.units +
+    throw Error::invalid_input("units = " + enum_name(flags.units) +
                                " must be si or the tester's own: kes goes with --loop (1/cm, gf cm/cm), fab "
                                "with --fab (cm, gf)")
-        .with_key("units", flags.units);
+        .with_key("units", enum_name(flags.units));
 }
 
 using WayIn = void (*)(const CommandLine&, const FitFlags&, const Keys&);
@@ -226,7 +227,8 @@ void fit_loops_of_fab(const CommandLine& line, const FitFlags& flags, const Keys
   if (std::isnan(flags.density))
     throw Error::invalid_input("--fab needs --fabric.density: the strip's weight bears on it")
         .with_key("fabric.density", "");
-  const FabAnswer answer = fit_fab(flags.fab, flags.units, flags.density);
+  const FabAnswer answer =
+      fit_fab(flags.fab, flags.units == FitUnits::fab ? TesterUnits::fab : TesterUnits::si, flags.density);
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.found.from, if_given(flags.density), if_given(flags.thickness)};
   report_fab(run, answer, notes);

@@ -229,7 +229,7 @@ void add_shape(Run& run, const FabBending& b, const std::string& prefix) {
   run.metric(prefix + "spread_stderr", b.form_errors[2] * shape.spread);
 }
 
-FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density) {
+FabAnswer fit_fab(const FabFlags& flags, TesterUnits units, double density) {
   FabAnswer answer;
   answer.tests = split(flags.tests);
   answer.cycles = parsed_cycles(flags.cycles);
@@ -241,7 +241,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   const auto asks_for = [&](const FabLoops& one) {
     return (asked.empty() || among(asked, one.direction)) && among(answer.tests, one.test);
   };
-  answer.loops = read_fab(flags.file, tester_units(units), "fit", {asks_for, answer.cycles, flags.noise});
+  answer.loops = read_fab(flags.file, units, "fit", {asks_for, answer.cycles, flags.noise});
   const std::vector<std::string> directions = requested_directions(flags.directions, answer.loops);
   answer.found.from = where_from(flags, directions);
   FabBendingQuestion bending;
@@ -250,8 +250,8 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   bending.density = density;
   bending.noise = flags.noise;
   FabBendingQuestion main = bending;
-  if (flags.friction == "shaped") main.form = shaped_friction();
-  if (flags.friction == "chapter") main.form = parabola_friction();
+  if (flags.friction == FabFriction::shaped) main.form = shaped_friction();
+  if (flags.friction == FabFriction::chapter) main.form = parabola_friction();
   FabTensionQuestion tension;
   tension.cycles = answer.cycles;
   tension.noise = std::max(tension.noise, flags.noise);
@@ -266,7 +266,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
         check_fit(fit.bending, bending.noise);
       });
       if (main.form) others.emplace_back([=, &fit] { fit.free = identify_fab_bending(loops, bending); });
-      if (flags.friction == "chapter") {
+      if (flags.friction == FabFriction::chapter) {
         FabBendingQuestion shaped = bending;
         shaped.form = shaped_friction();
         others.emplace_back([=, &fit] { fit.shaped = identify_fab_bending(loops, shaped); });

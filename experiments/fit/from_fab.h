@@ -10,9 +10,14 @@
 
 namespace hysteron::experiments {
 
+// The form of friction that is sought: the chapter's parabola, a lognormal distribution of thresholds, or a
+// stiffness at each of given thresholds.
+enum class FabFriction { chapter, shaped, stops };
+constexpr std::array<const char*, 3> names(FabFriction) { return {"chapter", "shaped", "stops"}; }
+
 struct FabFlags {
-  std::string file, directions, tests = "D1", cycles = "2", friction = "chapter",
-                                thresholds = "1,2,4,8,16,32,64,128,256";
+  std::string file, directions, tests = "D1", cycles = "2", thresholds = "1,2,4,8,16,32,64,128,256";
+  FabFriction friction = FabFriction::chapter;
   double noise = 7.5e-4;
 };
 
@@ -29,7 +34,7 @@ struct FabAnswer {
 };
 
 // Identifies the fabric.  Throws Error::invalid_input if the file lacks what is requested.
-FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density);
+FabAnswer fit_fab(const FabFlags& flags, TesterUnits units, double density);
 
 // Writes fabric.toml, one_stop.toml (a constant 2HB fitted to the same data), spectrum.csv, forms.csv,
 // predictions.csv, plots and metrics.

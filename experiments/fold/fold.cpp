@@ -24,12 +24,12 @@ namespace {
 using C = FoldParams;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"fold.cycles", at<&C::cycles>, "", between(1, 10'000'000), "", "number of folds; default 100"},
-    {"fold.period", at<&C::period>, "s", positive(), "", "duration of a cycle; default 1"},
-    {"fold.stroke", at<&C::stroke>, "", between(0.05, 0.95), "", "stroke of the moving clamp over the length between the clamps; default 0.4"},
-    {"fold.fatigue", at<&C::fatigue>, "J/m^2", at_least(0), "", "fatigue.dc of laws that know it, unless --param gives one; 0: no fatigue; default 5"},
-    {"fold.law-alone", at<&C::law_alone>, "", any(), "", "no cloth: the law alone, bent to fold.curvature and back"},
-    {"fold.curvature", at<&C::curvature>, "1/m", positive(), "", "largest curvature of the law alone; default 150"},
+    {"fold.cycles", at<&C::cycles>, "", between(1, 10'000'000), "number of folds; default 100"},
+    {"fold.period", at<&C::period>, "s", positive(), "duration of a cycle; default 1"},
+    {"fold.stroke", at<&C::stroke>, "", between(0.05, 0.95), "stroke of the moving clamp over the length between the clamps; default 0.4"},
+    {"fold.fatigue", at<&C::fatigue>, "J/m^2", at_least(0), "fatigue.dc of laws that know it, unless --param gives one; 0: no fatigue; default 5"},
+    {"fold.law-alone", at<&C::law_alone>, "", any(), "no cloth: the law alone, bent to fold.curvature and back"},
+    {"fold.curvature", at<&C::curvature>, "1/m", positive(), "largest curvature of the law alone; default 150"},
 };
 // clang-format on
 

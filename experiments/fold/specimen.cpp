@@ -106,7 +106,7 @@ Fold folded(const Scene& given, const FoldParams& choice, double rate) {
 
   ClampedMesh clamped =
       clamped_mesh(scene.mesh, fold.free_length, scene.cloth.width, scene.triangles, 2, scene.seed);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.triangles = clamped.mesh.faces();
   scene.pin = {held_between(-1, clamped.near()), held_between(clamped.far(), 1)};
   scene.pin[1].motion = clamp_motion(choice, fold.free_length);

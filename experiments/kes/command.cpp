@@ -28,11 +28,11 @@ namespace hysteron::experiments {
 namespace {
 
 struct KesFlags {
-  std::string test = "bending";
+  TesterMode test = TesterMode::bending;
   std::string law = "prandtl";
   Parameters param;
   KesProtocol protocol;
-  std::string on = "law";
+  Tested on = Tested::law;
   Along along = Along::warp;
   StripShape strip;
   Options options;
@@ -43,26 +43,26 @@ using P = KesProtocol;
 using S = StripShape;
 // clang-format off
 const KeyRow<KesFlags> kRows[] = {
-    {"test", at<&K::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, or shear or tension of KES-FB1, which take load, on, mesh, triangles and strip-steps"},
-    {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
-    {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
-    {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},
-    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "", "rate of the curvature; the tester's is 0.5 per cm and second"},
-    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "curvature from which the slope B is taken"},
-    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "curvature up to which the slope B is taken"},
-    {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "", "curvature at which 2HB is read"},
-    {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude, as they are drawn; what the tester reads of a law that takes no time does not depend on them"},
-    {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "number of cycles; the tester reads the first, the area is that of the last"},
-    {"along", at<&K::along>, "", any(), "", "along which the specimen is bent, or led from clamp to clamp"},
-    {"on", at<&K::on>, "", any(), "law | strip", "the law alone, or beside it a strip of cloth between rotating clamps"},
-    {"renderer", at<&K::options, &Options::renderer>, "", any(), "auto | egl | osmesa", "how pictures of strips are drawn"},
+    {"test", at<&K::test>, "", any(), "KES-FB2 bending, or shear or tension of KES-FB1, which take load, on, mesh, triangles and strip-steps"},
+    {"law", at<&K::law>, "", any(), "NAME, several separated by commas, or all; see `hysteron list laws`"},
+    {"param", at<&K::param>, "", any(), "parameters, for those of the laws that have them"},
+    {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "largest curvature; the tester's is 2.5 per cm"},
+    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "rate of the curvature; the tester's is 0.5 per cm and second"},
+    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "curvature from which the slope B is taken"},
+    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "curvature up to which the slope B is taken"},
+    {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "curvature at which 2HB is read"},
+    {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "accepted steps from zero to the amplitude, as they are drawn; what the tester reads of a law that takes no time does not depend on them"},
+    {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "number of cycles; the tester reads the first, the area is that of the last"},
+    {"along", at<&K::along>, "", any(), "along which the specimen is bent, or led from clamp to clamp"},
+    {"on", at<&K::on>, "", any(), "the law alone, or beside it a strip of cloth between rotating clamps"},
+    {"renderer", at<&K::options, &Options::renderer>, "", any(), "how pictures of strips are drawn"},
 };
 const KeyRow<KesFlags> kStripRows[] = {
-    {"mesh", at<&K::strip, &S::mesh>, "", any(), "", "of strips: aligned, aligned-45, flipped, unionjack, equilateral, random"},
-    {"element", at<&K::strip, &S::element>, "", any(), "", "bending element of strips"},
-    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "about how many a strip has; their size times the amplitude must stay small"},
-    {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "", "of strips; 1 cm is between the clamps"},
-    {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
+    {"mesh", at<&K::strip, &S::mesh>, "", any(), "of strips: aligned, aligned-45, flipped, unionjack, equilateral, random"},
+    {"element", at<&K::strip, &S::element>, "", any(), "bending element of strips"},
+    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "about how many a strip has; their size times the amplitude must stay small"},
+    {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "of strips; 1 cm is between the clamps"},
+    {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "equilibria of a strip from zero to the amplitude"},
 };
 // clang-format on
 constexpr int kQuickSteps = 1000, kQuickStripSteps = 28;
@@ -217,7 +217,7 @@ void warn_of_parameters(const KesTests& tests, const std::vector<std::string>& l
       return unused_parameter_warnings(law, curve, own, use, tests.fabric.name);
     };
     const std::vector<std::string> alone = warnings(LawUse::alone);
-    const std::vector<std::string> in_cloth = flags.on == "strip" ? warnings(LawUse::cloth) : alone;
+    const std::vector<std::string> in_cloth = flags.on == Tested::strip ? warnings(LawUse::cloth) : alone;
     for (const std::string& warning : alone)
       if (std::count(in_cloth.begin(), in_cloth.end(), warning)) run.warn(warning);
     if (flags.along == Along::warp) continue;
@@ -275,7 +275,7 @@ KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<s
     const LawRequest request{law, curve_along(fabric, flags.along, law),
                              accepted_parameters(law, laws, flags.param)};
     tests.results.push_back({law, laws.size() > 1 ? law : "", test_in_kes(request, flags.protocol)});
-    if (flags.on == "strip") tests.results.back().strip = strip_tested(fabric, flags, request);
+    if (flags.on == Tested::strip) tests.results.back().strip = strip_tested(fabric, flags, request);
   }
   return tests;
 }
@@ -283,7 +283,7 @@ KesTests tested(const Fabric& fabric, const KesFlags& flags, const std::vector<s
 // Returns the manifest's `scene`: all keys resolved, and the fabric with its sources.
 Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const Fabric& fabric) {
   Json keys = to_json(bind(kRows, flags));
-  if (flags.on == "strip") keys.update(to_json(bind(kStripRows, flags)), true);
+  if (flags.on == Tested::strip) keys.update(to_json(bind(kStripRows, flags)), true);
   keys["law"] = join(laws, ",");
   Scene scene;
   scene.fabric = fabric;
@@ -293,16 +293,16 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const Fabri
 
 int run_kes(const CommandLine& line) {
   KesFlags flags;
-  const std::string test = last_text(line.flags, "test", flags.test);
-  refuse_unread_flags(line, {{"test", test}, {"on", last_text(line.flags, "on", flags.on)}});
-  if (test != flags.test) return run_in_plane(line);
+  const std::string test = last_text(line.flags, "test", enum_name(flags.test));
+  refuse_unread_flags(line, {{"test", test}, {"on", last_text(line.flags, "on", enum_name(flags.on))}});
+  if (test != enum_name(flags.test)) return run_in_plane(line);
   set_keys(line, option_keys(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;
     flags.strip.steps = std::min(flags.strip.steps, kQuickStripSteps);
   });
   check_protocol(flags.protocol);
-  const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
+  const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == Tested::strip);
   if (laws.empty()) throw Error::invalid_input("--law names none").with_key("law", flags.law);
   const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
   const Fabric fabric = resolved_fabric(name, line.flags);

@@ -31,9 +31,9 @@ struct InPlaneSpecimen {
 };
 
 struct InPlaneFlags {
-  std::string test = "shear";
+  TesterMode test = TesterMode::shear;
   Along along = Along::warp;
-  std::string on = "law";
+  Tested on = Tested::law;
   InPlaneProtocol protocol;
   InPlaneSpecimen specimen;
   Options options;
@@ -43,16 +43,16 @@ using S = InPlaneSpecimen;
 using P = InPlaneProtocol;
 // clang-format off
 const KeyRow<InPlaneFlags> kOwnRows[] = {
-    {"along", at<&F::along>, "", any(), "", "shear, tension: the direction from clamp to clamp"},
-    {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "", "tension: largest force per width; the tester's is 500 gf/cm"},
+    {"along", at<&F::along>, "", any(), "shear, tension: the direction from clamp to clamp"},
+    {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "tension: largest force per width; the tester's is 500 gf/cm"},
 };
 // These keys are shared with the bending test.
 const KeyRow<InPlaneFlags> kSharedRows[] = {
-    {"test", at<&F::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, KES-FB1 shear or tension"},
-    {"on", at<&F::on>, "", any(), "law | strip", "the law alone, or beside it a specimen of cloth"},
-    {"mesh", at<&F::specimen, &S::mesh>, "", any(), "", "of the specimen"},
-    {"triangles", at<&F::specimen, &S::triangles>, "", between(80, 1e6), "", "about how many it has"},
-    {"strip-steps", at<&F::specimen, &S::steps>, "", between(4, 1e5), "", "its equilibria from zero to the largest"},
+    {"test", at<&F::test>, "", any(), "KES-FB2 bending, KES-FB1 shear or tension"},
+    {"on", at<&F::on>, "", any(), "the law alone, or beside it a specimen of cloth"},
+    {"mesh", at<&F::specimen, &S::mesh>, "", any(), "of the specimen"},
+    {"triangles", at<&F::specimen, &S::triangles>, "", between(80, 1e6), "about how many it has"},
+    {"strip-steps", at<&F::specimen, &S::steps>, "", between(4, 1e5), "its equilibria from zero to the largest"},
 };
 // clang-format on
 constexpr int kQuickTriangles = 400;
@@ -90,7 +90,7 @@ Scene strip_scene(const Fabric& fabric, Along along, const InPlaneSpecimen& spec
   Scene scene;
   scene.fabric = fabric;
   scene.fabric.damping = 0;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = kInPlaneGauge;
   scene.cloth.width = kInPlaneWidth;
   scene.cloth.warp_angle = along == Along::warp ? 0 : 90;
@@ -350,7 +350,7 @@ template <class Test, class OnCloth>
 void test_on_cloth(InPlaneResult& result, const Test& law, const InPlaneFlags& flags,
                    const OnCloth& on_cloth) {
   result.law = in_plane_loop(law);
-  if (flags.on == "law") return;
+  if (flags.on == Tested::law) return;
   InPlaneSpecimen coarse = flags.specimen;
   coarse.triangles /= 4;
   const auto cloth = on_cloth(result.fabric, flags.along, flags.specimen, flags.protocol);
@@ -387,7 +387,7 @@ int run_in_plane(const CommandLine& line) {
   InPlaneFlags flags;
   set_keys(line, option_keys(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
-  const auto test = value_named<InPlaneTest>(flags.test);
+  const auto test = value_named<InPlaneTest>(enum_name(flags.test));
   const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
   const Fabric fabric = resolved_fabric(name, line.flags);
   const InPlaneResult result = tested(fabric, test, flags);

@@ -9,4 +9,12 @@ int run_in_plane(const CommandLine& line);
 // Returns the keys of the in-plane tests that the bending test does not have.
 std::vector<KeyDescription> in_plane_keys();
 
+// What a KES tester measures: KES-FB2 bending, KES-FB1 shear and tension.
+enum class TesterMode { bending, shear, tension };
+constexpr std::array<const char*, 3> names(TesterMode) { return {"bending", "shear", "tension"}; }
+
+// What is tested: the law alone, or beside it a specimen of cloth.
+enum class Tested { law, strip };
+constexpr std::array<const char*, 2> names(Tested) { return {"law", "strip"}; }
+
 }  // namespace hysteron::experiments

@@ -46,9 +46,9 @@ Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& 
 }
 
 void check_strip(const StripShape& shape, const LawRequest& law, const KesProtocol& protocol) {
-  const auto& meshes = strip_meshes();
-  if (std::find(meshes.begin(), meshes.end(), shape.mesh) == meshes.end())
-    throw Error::invalid_input("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
+  if (!value_if_named<MeshFamily>(shape.mesh))
+    throw Error::invalid_input("mesh = " + shape.mesh +
+                               " of a strip is not one of: " + join(every_name<MeshFamily>(), ", "))
         .with_key("mesh", shape.mesh)
         .with_experiment("kes");
   if (law.name == "grinspun-edit")
@@ -110,12 +110,6 @@ LawRequest as_in_cloth(LawRequest law) {
 
 }  // namespace
 
-const std::vector<std::string>& strip_meshes() {
-  static const std::vector<std::string> kMeshes = {"aligned",   "aligned-45",  "flipped",
-                                                   "unionjack", "equilateral", "random"};
-  return kMeshes;
-}
-
 KesWalk strip_walk(const KesProtocol& p, int steps) {
   const int between = 2 * steps - 1;  // in amplitudes
   const double step = 2 * p.amplitude / between, seconds = step / p.rate;
@@ -148,7 +142,7 @@ ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const
   ClampedMesh clamped = clamped_mesh(shape.mesh, kGauge, shape.width, shape.triangles, 2, 1);
   const double d = strip.spacing = clamped.spacing;
   Scene& scene = strip.scene = strip_scene(shape, law, fabric, strip.walk);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = clamped.length;
   scene.cloth.width = shape.width;
   scene.cloth.warp_angle = shape.warp_angle;

@@ -16,7 +16,7 @@ namespace hysteron::experiments {
 inline constexpr double kGauge = 0.01;  // the tester's gauge: length between the clamps' middles [m]
 
 struct StripShape {
-  std::string mesh = "aligned";  // one of strip_meshes()
+  std::string mesh = "aligned";  // a MeshFamily
   BendingElement element = BendingElement::shape;
   double width = 4e-3;    // [m]
   double warp_angle = 0;  // angle of the warp to the strip [degree]
@@ -25,9 +25,6 @@ struct StripShape {
   // 0.2 and 0.6 of the amplitude, fall on rows, so that a kink there is read exactly.
   int steps = 63;
 };
-
-// Returns the mesh families that a strip can have.
-const std::vector<std::string>& strip_meshes();
 
 // Returns the curvatures and times of the strip's equilibria.  None but the first is at K = 0, where an
 // elastic strip carries nothing that its unbalanced forces could be compared with: the first step is half as

@@ -34,14 +34,14 @@ struct LawFlags {
 using L = LawFlags;
 // clang-format off
 const KeyRow<LawFlags> kRows[] = {
-    {"fabric", at<&L::fabric>, "", any(), "", "whose b1, b2, k0 are taken where not given, and what its file has beyond them; its stops unless b1 or k0 is given"},
-    {"law", at<&L::law>, "", any(), "", "see `hysteron list laws`"},
-    {"b1", at<&L::curve, &VirginCurve::b1>, "N m", at_least(0), "", "initial bending rigidity, >= b2"},
-    {"b2", at<&L::curve, &VirginCurve::b2>, "N m", at_least(0), "", "bending rigidity of the straight branch"},
-    {"k0", at<&L::curve, &VirginCurve::k0>, "1/m", at_least(0), "", "curvature at which friction saturates"},
-    {"param", at<&L::param>, "", any(), "", "parameters of the law"},
-    {"in", at<&L::in>, "", any(), "", "CSV with column `curvature [1/m]`, optional `time [s]` and `edit`"},
-    {"out", at<&L::out>, "", any(), "", "CSV with moments and energies"},
+    {"fabric", at<&L::fabric>, "", any(), "whose b1, b2, k0 are taken where not given, and what its file has beyond them; its stops unless b1 or k0 is given"},
+    {"law", at<&L::law>, "", any(), "see `hysteron list laws`"},
+    {"b1", at<&L::curve, &VirginCurve::b1>, "N m", at_least(0), "initial bending rigidity, >= b2"},
+    {"b2", at<&L::curve, &VirginCurve::b2>, "N m", at_least(0), "bending rigidity of the straight branch"},
+    {"k0", at<&L::curve, &VirginCurve::k0>, "1/m", at_least(0), "curvature at which friction saturates"},
+    {"param", at<&L::param>, "", any(), "parameters of the law"},
+    {"in", at<&L::in>, "", any(), "CSV with column `curvature [1/m]`, optional `time [s]` and `edit`"},
+    {"out", at<&L::out>, "", any(), "CSV with moments and energies"},
 };
 // clang-format on
 

@@ -124,7 +124,7 @@ Json fabric_json(const FabricFile& file) {
                        {"unit", number.unit},
                        {"known", number.provenance.confidence},
                        {"source", number.provenance.source}};
-    if (!number.tester.empty()) published[name]["tester"] = number.tester;
+    if (number.tester) published[name]["tester"] = enum_name(*number.tester);
   }
   return {{"name", file.fabric.name},
           {"description", file.description},
@@ -263,7 +263,7 @@ struct ListFlags {
 };
 // clang-format off
 const KeyRow<ListFlags> kRows[] = {
-    {"json", at<&ListFlags::json>, "", any(), "", "one JSON object on stdout: an array for each of the lists; of fabrics that are named, an array of those"},
+    {"json", at<&ListFlags::json>, "", any(), "one JSON object on stdout: an array for each of the lists; of fabrics that are named, an array of those"},
 };
 // clang-format on
 

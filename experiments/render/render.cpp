@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "experiments/render/archived_pictures.h"
 #include "experiments/render/instants.h"
@@ -31,9 +30,13 @@
 namespace hysteron::experiments {
 namespace {
 
+enum class CurvatureSource { geometry, file };
+constexpr std::array<const char*, 2> names(CurvatureSource) { return {"geometry", "file"}; }
+
 struct RenderFlags {
   std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
-  std::string title, ground = "none", body, curvature = "geometry", fabric, part;
+  std::string title, ground = "none", body, fabric, part;
+  CurvatureSource curvature = CurvatureSource::geometry;
   double range = 100;  // [1/m]; 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0}, also{0, 0, 0};
   std::string video = "none";
@@ -44,34 +47,29 @@ struct RenderFlags {
 using F = RenderFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; files are frames by the numbers in their names; without it pictures carry the frame's number"},
-    {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
-    {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
-    {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
-    {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
-    {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names, or what was recorded"},
-    {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
-    {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
-    {"render.fabric", at<&F::fabric>, "", any(), "", "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
-    {"render.also", at<&F::also>, "", any(), "", "a further row of the sheet has each sequence's last frame from this direction, which points to the eye; 0,0,0: none"},
-    {"render.part", at<&F::part>, "", any(), "", "of a run's folder: how much relief is seen of the part that this [[metric]] of its scene is measured on, before and after: the median of the deviation of L* within 21 pixels, in this --light"},
-    {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
-    {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
-    {"render.video", at<&F::video>, "", any(), "", "of a comparison whose columns' folders stand in its own: a film, as compare.video"},
-    {"render.video-size", at<&F::video_size>, "MB", positive(), "", "as compare.video-size"},
+    {"fps", at<&F::fps>, "", any(), "frames per second of the files, one number for all sequences or one for each, separated by commas; files are frames by the numbers in their names; without it pictures carry the frame's number"},
+    {"render.unit", at<&F::unit>, "", any(), "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
+    {"render.up", at<&F::up>, "", any(), "the files' upward axis: z | y, for all or for each"},
+    {"render.range", at<&F::range>, "1/m", positive(), "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
+    {"render.curvature", at<&F::curvature>, "", any(), "computed from positions, or the property of that name in a PLY"},
+    {"render.title", at<&F::title>, "", any(), "of the sheet, and of a single sequence's pictures; else the sequences' names, or what was recorded"},
+    {"render.ground", at<&F::ground>, "", any(), "height of a visible ground [m], or none"},
+    {"render.body", at<&F::body>, "", any(), "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
+    {"render.fabric", at<&F::fabric>, "", any(), "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
+    {"render.also", at<&F::also>, "", any(), "a further row of the sheet has each sequence's last frame from this direction, which points to the eye; 0,0,0: none"},
+    {"render.part", at<&F::part>, "", any(), "of a run's folder: how much relief is seen of the part that this [[metric]] of its scene is measured on, before and after: the median of the deviation of L* within 21 pixels, in this --light"},
+    {"render.low", at<&F::low>, "m", any(), "with render.high: corners of what is framed; else the box of all frames"},
+    {"render.high", at<&F::high>, "m", any(), "see render.low"},
+    {"render.video", at<&F::video>, "", any(), "of a comparison whose columns' folders stand in its own: a film, as compare.video"},
+    {"render.video-size", at<&F::video_size>, "MB", positive(), "as compare.video-size"},
 };
 // clang-format on
 
 constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence, or of each of several
 
 Keys option_keys(F& flags) {
-  static const std::set<std::string> kNames = {"size",       "quality", "renderer", "look", "light",
-                                               "background", "out",     "quiet",    "json"};
   Keys keys = bind(kRows, flags);
-  for (BoundKey& key : bind_options(flags.options)) {
-    const std::string& path = key.description.path;
-    if (kNames.contains(path) || path.starts_with("camera.")) keys.push_back(std::move(key));
-  }
+  for (BoundKey& key : bind_options_of(Takers::files, flags.options)) keys.push_back(std::move(key));
   return keys;
 }
 
@@ -115,9 +113,8 @@ std::string listed_value(const std::string& key, const std::string& list, std::s
 }
 
 LengthUnit parsed_unit(const std::string& unit) {
-  const auto units = names(LengthUnit{});
-  if (std::count(units.begin(), units.end(), unit)) return value_named<LengthUnit>(unit);
-  throw refusal("render.unit", unit, join({units.begin(), units.end()}, " | "));
+  if (const auto known = value_if_named<LengthUnit>(unit)) return *known;
+  throw refusal("render.unit", unit, join(every_name<LengthUnit>(), " | "));
 }
 
 bool is_y_up(const std::string& up) {
@@ -190,17 +187,17 @@ ClothMesh frame_mesh(const Surface& frame, const std::string& what) {
 
 void check_curvature(const F& flags, const Surface& frame, const std::string& what) {
   if (flags.options.look != "curvature") return;
-  if (flags.curvature == "file") {
+  if (flags.curvature == CurvatureSource::file) {
     if (!frame.curvature.empty()) return;
     throw Error::invalid_input(what + ": no property curvature of its vertices (--render.curvature file)")
-        .with_key("render.curvature", flags.curvature);
+        .with_key("render.curvature", enum_name(flags.curvature));
   }
   frame_mesh(frame, what);
 }
 
 // Warns of what is doubtful about each sequence's first mesh: curvature needs an edge between two triangles.
 void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run& run) {
-  if (flags.options.look != "curvature" || flags.curvature == "file") return;
+  if (flags.options.look != "curvature" || flags.curvature == CurvatureSource::file) return;
   for (const Column& column : columns) {
     const std::string what = "mesh " + column.files.front().string();
     const ClothMesh mesh = frame_mesh(read_frame(column.files.front(), column.axes), what);
@@ -266,8 +263,8 @@ class FramesAndSheet {
       : flags_(flags),
         columns_(columns),
         run_(run),
-        pictures_(flags.options,
-                  {bounds, ground_height(flags), flags.range, flags.curvature == "file", flags.fabric}) {}
+        pictures_(flags.options, {bounds, ground_height(flags), flags.range,
+                                  flags.curvature == CurvatureSource::file, flags.fabric}) {}
 
   void draw() {
     if (!flags_.body.empty()) pictures_.add_body(moving_obstacle(flags_, columns_.front().axes));
@@ -410,7 +407,7 @@ CommandLine from_within(CommandLine line) {
   if (columns.empty() || columns.size() != recorded->spec->positionals.size()) return line;
   line.positionals = columns;
   for (const auto& [path, text] : recorded->spec->flags)
-    if (path != "out" && path != "quiet" && path != "json" && last_text(line.flags, path, "").empty())
+    if (!simulation_traits(path).is_of_page() && last_text(line.flags, path, "").empty())
       line.flags.push_back({path, text});
   return line;
 }

@@ -22,8 +22,8 @@ struct ReportFlags {
 
 // clang-format off
 const KeyRow<ReportFlags> kRows[] = {
-    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page or a report.html below it is missing or stale"},
-    {"self-contained", at<&ReportFlags::self_contained>, "", any(), "", "embed pictures instead of linking them: a page that can be sent alone"},
+    {"check", at<&ReportFlags::check>, "", any(), "write nothing; exit 4 if DIR's page or a report.html below it is missing or stale"},
+    {"self-contained", at<&ReportFlags::self_contained>, "", any(), "embed pictures instead of linking them: a page that can be sent alone"},
 };
 // clang-format on
 

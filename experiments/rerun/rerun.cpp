@@ -30,8 +30,8 @@ struct RerunParams {
 using R = RerunParams;
 // clang-format off
 const KeyRow<R> kRows[] = {
-    {"no-errors", at<&R::no_errors>, "", any(), "", "without the repeats of --errors"},
-    {"snakemake", at<&R::snakemake>, "", any(), "", "folder: write all runs below DIR as a Snakemake workflow there, and run nothing"},
+    {"no-errors", at<&R::no_errors>, "", any(), "without the repeats of --errors"},
+    {"snakemake", at<&R::snakemake>, "", any(), "folder: write all runs below DIR as a Snakemake workflow there, and run nothing"},
 };
 // clang-format on
 
@@ -39,8 +39,7 @@ const KeyRow<R> kRows[] = {
 // gives the same bits.
 std::vector<KeyDescription> device_keys() {
   std::vector<KeyDescription> keys = scene_keys();
-  std::erase_if(keys,
-                [](const KeyDescription& key) { return key.path != "device" && key.path != "threads"; });
+  std::erase_if(keys, [](const KeyDescription& key) { return key.traits.scope != Scope::run; });
   for (KeyDescription& key : keys) key.default_text = "";
   return keys;
 }

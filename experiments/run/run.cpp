@@ -46,7 +46,7 @@ CommandLine with_scene(CommandLine line) {
 }
 
 bool has_built_mesh(const Scene& scene) {
-  const bool from_file = scene.cloth.shape == "file" || scene.cloth.shape == "pattern";
+  const bool from_file = scene.cloth.is_of_file();
   return !from_file && !scene.mesh.ends_with(".obj");
 }
 

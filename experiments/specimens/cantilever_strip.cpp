@@ -175,7 +175,7 @@ Eigen::Vector2d CantileverStrip::free_end(const std::vector<Eigen::Vector3d>& x)
 
 CantileverStrip overhang(Scene scene, double length) {
   ClampedMesh clamped = clamped_mesh(scene.mesh, length, scene.cloth.width, scene.triangles, 1, scene.seed);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = clamped.length;
   scene.triangles = clamped.mesh.faces();
   scene.pin = {held_between(-1, clamped.near())};

@@ -90,7 +90,7 @@ Cloth clamp_at(Scene& scene, double line) {
     throw Error::invalid_input("cloth.length = " + std::to_string(shape.length) +
                                " m must be more than the " + std::to_string(line) + " m that are clamped")
         .with_key("cloth.length", std::to_string(shape.length));
-  const double width = shape.shape == "square" ? shape.length : shape.width;
+  const double width = shape.side_along_weft();
   ClampedMesh clamped = clamped_mesh(scene.mesh, shape.length - line, width, scene.triangles, 1, scene.seed);
   for (Eigen::Vector3d& x : clamped.mesh.rest) x.x() += line - clamped.spacing / 2;
   scene.pin = {held_between(-1, line + clamped.spacing / 2)};

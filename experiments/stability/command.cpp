@@ -33,7 +33,7 @@ constexpr const char* kIntegratorSweeps =
 constexpr const char* kLawSweeps = "sweep = all | *-step | mesh | contact | scenes* | ripple";
 
 struct StabilityFlags {
-  std::string device = "cpu";
+  NamedDevice device = NamedDevice::cpu;
   std::string integrator = "all", law, sweep = "all";
   CellEffort effort;
   double threads = 0, limit_steps = 2000;
@@ -43,14 +43,14 @@ struct StabilityFlags {
 using F = StabilityFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"device", at<&F::device>, "", any(), "cpu | cuda", "where cells are simulated; ripple and explicit-limit run on the cpu"},
-    {"integrator", at<&F::integrator>, "", any(), "", "NAME, several separated by commas, or all"},
-    {"law", at<&F::law>, "", any(), "", "NAME, several separated by commas, or all; default: linear, prandtl and wong in maps, all in scenes, prandtl and wong beside linear in ripple"},
-    {"sweep", at<&F::sweep>, "", any(), "", "NAME, several separated by commas, or all"},
-    {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
-    {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
-    {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "", "steps through which the energy must stay bounded (sweep explicit-limit)"},
-    {"threads", at<&F::threads>, "", between(0, 1024), "", "of the host, a cell at a time each; 0: all cores, or 1 on cuda"},
+    {"device", at<&F::device>, "", any(), "where cells are simulated; ripple and explicit-limit run on the cpu"},
+    {"integrator", at<&F::integrator>, "", any(), "NAME, several separated by commas, or all"},
+    {"law", at<&F::law>, "", any(), "NAME, several separated by commas, or all; default: linear, prandtl and wong in maps, all in scenes, prandtl and wong beside linear in ripple"},
+    {"sweep", at<&F::sweep>, "", any(), "NAME, several separated by commas, or all"},
+    {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "simulated time of a cell"},
+    {"work", at<&F::effort, &CellEffort::work>, "", positive(), "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
+    {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "steps through which the energy must stay bounded (sweep explicit-limit)"},
+    {"threads", at<&F::threads>, "", between(0, 1024), "of the host, a cell at a time each; 0: all cores, or 1 on cuda"},
 };
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
@@ -59,7 +59,9 @@ Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flag
 
 int thread_choice(const F& flags) {
   if (flags.threads > 0) return static_cast<int>(flags.threads);
-  return flags.device == "cuda" ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return flags.device == NamedDevice::cuda
+             ? 1
+             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 // Returns the listed ones of the known names, each once, or all of them.
@@ -83,7 +85,7 @@ SweepParams sweep_choice(const F& flags) {
     choice.integrators =
         chosen_names("integrator", flags.integrator, {integrators.begin(), integrators.end()});
   if (!flags.law.empty()) choice.laws = chosen_names("law", flags.law, law_names());
-  choice.device = value_named<DeviceChoice>(flags.device);
+  choice.device = device_choice(flags.device);
   choice.quick = flags.options.quick;
   return choice;
 }
@@ -189,8 +191,8 @@ std::string beyond_search_warning(const std::vector<MeasuredLimit>& limits, doub
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     if (limit.is_beyond_search)
-      beyond.push_back(
-          fmt::format("{} {} {} {}", of.mesh, enum_name(of.element), of.held ? "held" : "free", of.law));
+      beyond.push_back(fmt::format("{} {} {} {}", enum_name(of.mesh), enum_name(of.element),
+                                   of.held ? "held" : "free", of.law));
   }
   if (beyond.empty()) return "";
   return fmt::format(
@@ -211,8 +213,8 @@ void measure_limits(const F& flags, Run& run) {
   double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    table.row({of.mesh, enum_name(of.element), of.held ? "held" : "free", of.law, of.damping, of.amplitude,
-               limit.bound, limit.measured, limit.ratio()});
+    table.row({enum_name(of.mesh), enum_name(of.element), of.held ? "held" : "free", of.law, of.damping,
+               of.amplitude, limit.bound, limit.measured, limit.ratio()});
     if (of.resonates() && of.damping == 0) {
       least_resonant = std::min(least_resonant, limit.ratio());
       continue;

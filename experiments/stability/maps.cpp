@@ -61,7 +61,7 @@ Scene falling_square() {
   scene.triangles = 128;
   for (const double x : {0.0, kLength}) {
     Pin& pin = scene.pin.emplace_back();
-    pin.select = "nearest";
+    pin.select = PinSelection::nearest;
     pin.point = {x, kLength, 0};
   }
   return scene;

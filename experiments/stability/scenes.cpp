@@ -70,7 +70,7 @@ ClothMesh one_triangle() {
 
 // ---- scenes ----
 
-Scene scene_of(const std::string& shape, double length, int triangles) {
+Scene scene_of(ClothOutline shape, double length, int triangles) {
   Scene scene = default_scene("cotton-broad-k50");
   scene.seconds = kHappens;
   scene.cloth.shape = shape;
@@ -81,7 +81,7 @@ Scene scene_of(const std::string& shape, double length, int triangles) {
 
 // Returns a square whose left edge is held while the rest swings down.
 Scene hanging(void (*change)(Scene&)) {
-  Scene scene = scene_of("square", kSide, 160);
+  Scene scene = scene_of(ClothOutline::square, kSide, 160);
   scene.pin = {held_between(0, 1e-6)};
   change(scene);
   return scene;
@@ -101,7 +101,7 @@ void soften_to_coulomb(Scene& scene) {
 // Returns a strip of 10 cm x 3 cm, held up to x = `near` and from x = `far` on [m], where the pin moves by
 // `keys`.
 Scene clamped(double near, double far, const std::vector<Keyframe>& keys) {
-  Scene scene = scene_of("strip", 0.1, 160);
+  Scene scene = scene_of(ClothOutline::strip, 0.1, 160);
   scene.cloth.width = 0.03;
   scene.pin = {held_between(0, near), held_between(far, 0.1)};
   scene.pin[1].motion = {keys, {0, -1, 0}, {0.05, 0, 0}};
@@ -148,7 +148,7 @@ Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center, double radius =
 // cloth: the middle of a smooth motion from rest to rest is 3/2 as fast as the mean.  In steps of 10 µs it
 // moves 1 mm.
 Scene hit(double step) {
-  Scene scene = scene_of("square", kSide, 160);
+  Scene scene = scene_of(ClothOutline::square, kSide, 160);
   scene.step = step;
   scene.seconds = 0.05;
   scene.pin = {held_between(0, 1e-6), held_between(kSide - 1e-6, kSide)};
@@ -166,7 +166,7 @@ Obstacle sharp_wall(double x, double y) {
 }
 
 Scene dropped_on_edge() {
-  Scene scene = scene_of("square", kSide, 160);
+  Scene scene = scene_of(ClothOutline::square, kSide, 160);
   scene.cloth.position.z() = 0.02;
   scene.obstacle = {sharp_wall(0.1, 0.1)};
   return scene;
@@ -213,7 +213,7 @@ Scene with_self_contact(Scene scene) {
 }
 
 Scene closing_sphere(double friction) {
-  Scene scene = with_self_contact(scene_of("square", kSide, 300));
+  Scene scene = with_self_contact(scene_of(ClothOutline::square, kSide, 300));
   scene.fabric.friction = friction;
   scene.cloth.position = {-kSide / 2, 0, -kSide / 2};
   scene.cloth.rotation = {90, 0, 0};
@@ -225,7 +225,7 @@ Scene closing_sphere(double friction) {
 // Returns six layers under a plate that stops at this many thicknesses a layer.
 Scene pressed(double thicknesses) {
   constexpr double kHeight = 0.026;  // initial height of the plate's lower side [m]
-  Scene scene = with_self_contact(scene_of("strip", kSide, 400));
+  Scene scene = with_self_contact(scene_of(ClothOutline::strip, kSide, 400));
   scene.cloth.start = "pleats";
   scene.cloth.pleats = 6;
   scene.cloth.width = 0.03;
@@ -241,7 +241,7 @@ Scene pressed(double thicknesses) {
 
 // Returns sheets one above the other, the lowest 1 cm above z = 0.
 Scene sheets(int copies, const Obstacle& obstacle) {
-  Scene scene = with_self_contact(scene_of("square", kSide, 100 * copies));
+  Scene scene = with_self_contact(scene_of(ClothOutline::square, kSide, 100 * copies));
   scene.cloth.copies = copies;
   scene.cloth.copy_offset = {0, 0, 0.01};
   scene.cloth.position = {-kSide / 2, -kSide / 2, 0.01};

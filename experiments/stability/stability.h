@@ -101,7 +101,7 @@ inline constexpr double kLinearWave = 1e-9;  // largest amplitude of a wave with
 
 // A square of 0.2 m and 128 triangles without gravity, whose vertices are shaken out of its plane.
 struct LimitCase {
-  std::string mesh = "random";  // mesh family
+  MeshFamily mesh = MeshFamily::random;
   BendingElement element = BendingElement::shape;
   bool held = false;  // held by its left edge
   std::string law = "linear";

@@ -23,8 +23,11 @@ namespace fs = std::filesystem;
 constexpr double kMaxValues = 100000, kMaxRuns = 1e6;
 constexpr int kDigits = 6;  // digits of values from a range or a sample, which appear in names and tables
 
-// Flags of `sweep` itself, which a study must not set.
-const std::set<std::string> kSweepFlags = {"out", "quiet", "json", "resume", "threads", "explain"};
+// True for a flag of `sweep` itself, which a study must not set.
+bool is_of_sweep(const std::string& flag) {
+  const InColumns in = simulation_traits(flag).in_columns;
+  return in == InColumns::leave || in == InColumns::share;
+}
 
 // True if the experiment writes a folder with a manifest and flags alone define it; if its argument is a
 // scene, it also takes this as --scene.
@@ -182,18 +185,15 @@ class StudyFile {
       keys_.push_back({key, Field{}});
   }
 
-  // Returns the key's name on the command line.
-  static std::string called_flag(const std::string& key) { return key == "fabric.name" ? "fabric" : key; }
-
   // Returns a key of the experiment by its name in the study; "param.stack" belongs to key "param".
   const KeyDescription& known_key(const std::string& key, const ValueTree& node) const {
-    if (kSweepFlags.contains(key))
+    if (is_of_sweep(key))
       throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").with_key(key, "");
     for (const FixedKey& fixed_keys : experiment_named(study_.experiment).fixed_keys())
       if (fixed_keys.path == key)
         throw refusal(node, key + " cannot be set: " + fixed_key_message(study_.experiment, fixed_keys))
             .with_key(key, "");
-    return find_key(keys_, key == "fabric" ? "fabric.name" : flag_of(key, "").path, at(node)).description;
+    return find_key(keys_, key_of_flag(flag_of(key, "").path), at(node)).description;
   }
 
   void check_value(const std::string& key, const KeyDescription& description, const std::string& value,
@@ -210,7 +210,7 @@ class StudyFile {
 
   void read_scene(const std::string& prefix, const ValueTree& of) {
     for (const ValueTree& child : of.children) {
-      const std::string key = called_flag(prefix + child.key);
+      const std::string key = flag_of_key(prefix + child.key);
       if (child.kind == ValueTree::Kind::table) {
         read_scene(key + ".", child);
         continue;
@@ -227,7 +227,7 @@ class StudyFile {
     for (const ValueTree& node : tables(axes, file_)) {
       table(node);
       if (!recorded_) throw_if_unknown(node, {"key", "values", "linear", "log"}, "axis.");
-      read_axis(called_flag(text(node, "key", "axis.key")), node);
+      read_axis(flag_of_key(text(node, "key", "axis.key")), node);
       if (!recorded_) continue;
       study_.axes.back().logarithmic = node.find("scale");
       study_.axes.back().sampled = node.find("sampled");

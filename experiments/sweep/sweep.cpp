@@ -39,14 +39,14 @@ struct SweepParams {
 using S = SweepParams;
 // clang-format off
 const KeyRow<S> kRows[] = {
-    {"jobs", at<&S::jobs>, "", between(0, 1024), "", "how many runs at a time; 0: one for each GPU, or for each --threads of the cores"},
-    {"batch", at<&S::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
-    {"threads", at<&S::threads>, "", between(1, 1024), "", "of each run on the CPU"},
-    {"resume", at<&S::resume>, "", any(), "", "go on with a study: finished runs are kept whose request, program and files are the same, interrupted ones go on from their checkpoints, and all others run"},
-    {"collect", at<&S::collect>, "", any(), "", "run nothing: table, plots and page of the runs that are there; one whose request, program or files have changed since counts as not run"},
-    {"only", at<&S::only>, "", any(), "", "the run of this name alone, without table and page; a finished one is kept"},
-    {"part", at<&S::part>, "", any(), "", "K/N: only the K-th of N equal parts of the runs, without table and page; finished ones are kept"},
-    {"snakemake", at<&S::snakemake>, "", any(), "", "folder: write the study as a Snakemake workflow there, and run nothing"},
+    {"jobs", at<&S::jobs>, "", between(0, 1024), "how many runs at a time; 0: one for each GPU, or for each --threads of the cores"},
+    {"batch", at<&S::batch>, "", between(1, kLargestBatch), kBatchDoc},
+    {"threads", at<&S::threads>, "", between(1, 1024), "of each run on the CPU"},
+    {"resume", at<&S::resume>, "", any(), "go on with a study: finished runs are kept whose request, program and files are the same, interrupted ones go on from their checkpoints, and all others run"},
+    {"collect", at<&S::collect>, "", any(), "run nothing: table, plots and page of the runs that are there; one whose request, program or files have changed since counts as not run"},
+    {"only", at<&S::only>, "", any(), "the run of this name alone, without table and page; a finished one is kept"},
+    {"part", at<&S::part>, "", any(), "K/N: only the K-th of N equal parts of the runs, without table and page; finished ones are kept"},
+    {"snakemake", at<&S::snakemake>, "", any(), "folder: write the study as a Snakemake workflow there, and run nothing"},
 };
 // clang-format on
 

@@ -34,7 +34,7 @@ RestSheet rest_sheet(const Scene& scene, const ClothMesh& mesh) {
   if (sheet.box.sizes().z() > sheet.box.sizes().y()) std::swap(sheet.across, sheet.normal);
   // A generated strip ends where the scene says, though its clamp is a little longer.
   if (is_flat_rectangle(scene)) {
-    const double width = scene.cloth.shape == "square" ? scene.cloth.length : scene.cloth.width;
+    const double width = scene.cloth.side_along_weft();
     sheet.box = Eigen::AlignedBox3d(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(scene.cloth.length, width, 0));
   }
   return sheet;
@@ -50,7 +50,7 @@ Eigen::Matrix3d cloth_rotation(const Scene& scene) {
 
 std::string sheet_name(const Scene& scene) {
   const std::string file = rest_file(scene);
-  return file.empty() ? "the " + scene.cloth.shape : "mesh " + file;
+  return file.empty() ? "the " + enum_name(scene.cloth.shape) : "mesh " + file;
 }
 
 // Formats "0 90 0".
@@ -60,9 +60,7 @@ std::string rotation_text(const Eigen::Vector3d& degrees) {
 
 }  // namespace
 
-bool is_flat_rectangle(const Scene& scene) {
-  return (scene.cloth.shape == "strip" || scene.cloth.shape == "square") && rest_file(scene).empty();
-}
+bool is_flat_rectangle(const Scene& scene) { return scene.cloth.is_rectangle() && rest_file(scene).empty(); }
 
 void throw_if_gravity_bends_nothing(const Scene& scene, const ClothMesh& mesh) {
   const RestSheet sheet = rest_sheet(scene, mesh);

@@ -26,7 +26,7 @@ Setup defaults() {
   // This mesh and step err by 0.4 % of the length in `hysteron accuracy`, problem swing: the cheapest within
   // 1 %.
   scene.integrator = Integrator::bdf2;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.09;
   scene.cloth.width = 0.03;
   scene.mesh = "unionjack";

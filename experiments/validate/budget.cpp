@@ -60,9 +60,9 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
 }
 
 Drape with_swapped_standard(Drape drape) {
-  const bool shaken = drape.standard == "jis";
-  drape.standard = shaken ? "iso9073" : "jis";
-  drape.release = shaken ? "lowered" : "shaken";
+  const bool shaken = drape.standard == DrapeStandard::jis;
+  drape.standard = shaken ? DrapeStandard::iso9073 : DrapeStandard::jis;
+  drape.release = shaken ? DrapeRelease::lowered : DrapeRelease::shaken;
   drape.measured = measured_on(drape.standard, read_fabric(drape.fabric, "--fabrics").fabric);
   return drape;
 }
@@ -93,7 +93,7 @@ std::vector<Trial> budget_trials(const std::string& fabric, const ValidateFlags&
       trials.back().drape.further = drape_flags(sample);
     }
   const Drape other = with_swapped_standard(nominal);
-  trials.push_back({"tester", other.standard, other});
+  trials.push_back({"tester", enum_name(other.standard), other});
   Drape finer = nominal;
   finer.triangles *= 4;
   trials.push_back({"mesh", std::to_string(finer.triangles), finer});

@@ -10,7 +10,7 @@
 
 namespace hysteron::experiments {
 
-std::map<std::string, double> measured_on(const std::string& standard, const Fabric& fabric) {
+std::map<std::string, double> measured_on(DrapeStandard standard, const Fabric& fabric) {
   std::map<std::string, double> measured;
   for (const auto& [name, metric] :
        {std::pair{"drape-coefficient", "drape_coefficient_percent"}, {"node-count", "node_count"}})
@@ -24,12 +24,13 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
   const Fabric read = read_fabric(fabric, "--fabrics").fabric;
   const auto& published = read.published;
   const auto drape = published.find("drape-coefficient");
-  const bool named = drape != published.end() && drape->second.tester == "jis";
-  const bool shaken = flags.standard == "published" ? named : flags.standard == "jis";
+  const bool named = drape != published.end() && drape->second.tester == DrapeStandard::jis;
+  const bool shaken =
+      flags.standard == ValidatedTester::published ? named : flags.standard == ValidatedTester::jis;
   Drape nominal{fabric,
                 flags.law,
-                shaken ? "jis" : "iso9073",
-                shaken ? "shaken" : "lowered",
+                shaken ? DrapeStandard::jis : DrapeStandard::iso9073,
+                shaken ? DrapeRelease::shaken : DrapeRelease::lowered,
                 "",
                 static_cast<int>(flags.triangles),
                 read.name};
@@ -40,16 +41,16 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
 std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
   std::vector<Flag> own = {{"fabric", drape.fabric},
                            {"law", drape.law},
-                           {"drape.standard", drape.standard},
-                           {"drape.release", drape.release},
+                           {"drape.standard", enum_name(drape.standard)},
+                           {"drape.release", enum_name(drape.release)},
                            {"triangles", std::to_string(drape.triangles)},
                            {"step", number_text(flags.step)},
                            {"tolerance", number_text(flags.tolerance)},
-                           {"device", flags.device}};
+                           {"device", enum_name(flags.device)}};
   if (flags.seconds > 0) own.push_back({"seconds", number_text(flags.seconds)});
   if (flags.options.quick) {
-    if (drape.release != "dropped") own.push_back({"drape.lowering", "0.3"});
-    if (drape.release == "shaken") own.push_back({"drape.shakes", "1"});
+    if (drape.release != DrapeRelease::dropped) own.push_back({"drape.lowering", "0.3"});
+    if (drape.release == DrapeRelease::shaken) own.push_back({"drape.shakes", "1"});
     if (!(flags.seconds > 0)) own.push_back({"seconds", "1.4"});
   }
   own.insert(own.end(), drape.further.begin(), drape.further.end());
@@ -62,7 +63,8 @@ void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run
   std::vector<ChildRun> columns;
   for (const Drape& drape : drapes)
     columns.push_back(child_run(drape.name(), line, drape_flags(drape, flags), run.folder()));
-  run_columns(run, columns, {.resume = flags.resume, .gpu = flags.device != "cpu", .batch = flags.batch});
+  run_columns(run, columns,
+              {.resume = flags.resume, .gpu = flags.device != NamedDevice::cpu, .batch = flags.batch});
   for (std::size_t d = 0; d < drapes.size(); ++d) {
     Drape& drape = drapes[d];
     const ChildRun& column = columns[d];

@@ -2,11 +2,13 @@
 // within a validation, also with the fabric's uncertain numbers drawn from their ranges.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "experiments/drape/apparatus.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/app/run.h"
@@ -14,13 +16,18 @@
 
 namespace hysteron::experiments {
 
+// The tester on which drapes are simulated: that which the fabric's file names, or one for all.
+enum class ValidatedTester { published, iso9073, jis };
+constexpr std::array<const char*, 3> names(ValidatedTester) { return {"published", "iso9073", "jis"}; }
+
 // The keys of the command line.
 struct ValidateFlags {
   std::string parts = "spread";
   std::string fabrics = "cotton-broad,wool-tropical,polyester-tropical,polyester-faille";
-  std::string law = "prandtl", device = "cpu";
-  std::string standard = "published";  // apparatus of the drapes
-  std::string recorded = "results";    // folder of the results that are drawn
+  std::string law = "prandtl";
+  NamedDevice device = NamedDevice::cpu;
+  ValidatedTester standard = ValidatedTester::published;
+  std::string recorded = "results";  // folder of the results that are drawn
   double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5;
   double seconds = 0;  // longest duration of a drape [s]; 0: its own default
   int samples = 8;     // number of draws of each fabric's uncertain numbers
@@ -33,7 +40,10 @@ struct ValidateFlags {
 
 // A drape and its results.
 struct Drape {
-  std::string fabric, law, standard, release, varied;  // `varied` is sample-1 or budget-3-1
+  std::string fabric, law;
+  DrapeStandard standard = DrapeStandard::iso9073;
+  DrapeRelease release = DrapeRelease::lowered;
+  std::string varied;  // sample-1 or budget-3-1
   int triangles = 0;
   std::string label = {};                    // the fabric's name, if `fabric` is a file
   std::vector<Flag> further = {};            // its other flags
@@ -44,7 +54,7 @@ struct Drape {
   double seconds = 0;
 
   std::string name() const {
-    return label + "-" + law + "-" + release + (varied.empty() ? "" : "-" + varied);
+    return label + "-" + law + "-" + enum_name(release) + (varied.empty() ? "" : "-" + varied);
   }
   double number(const std::string& key) const { return metrics.number(key); }
   double coefficient() const { return number("drape_coefficient_percent"); }
@@ -56,7 +66,7 @@ struct Drape {
 };
 
 // Returns the numbers of the fabric published for that standard's tester, by the metric that predicts each.
-std::map<std::string, double> measured_on(const std::string& standard, const Fabric& fabric);
+std::map<std::string, double> measured_on(DrapeStandard standard, const Fabric& fabric);
 
 // Returns the drape according to the flags, on the tester that the fabric's file names.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);

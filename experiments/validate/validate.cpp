@@ -20,21 +20,21 @@ namespace {
 using F = ValidateFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"parts", at<&F::parts>, "", any(), "", "separated by commas: spread (drapes with uncertain numbers), budget (what each uncertain number explains), figure (of recorded results)"},
-    {"recorded", at<&F::recorded>, "", any(), "", "folder of results that the part `figure` draws"},
-    {"standard", at<&F::standard>, "", any(), "published | iso9073 | jis", "of the drapes: the tester that the fabric's file names, or one for all"},
-    {"fabrics", at<&F::fabrics>, "", any(), "", "those that publish a drape coefficient, separated by commas"},
-    {"laws", at<&F::law>, "", any(), "", "of the drapes; one"},
-    {"device", at<&F::device>, "", any(), "cpu | cuda", "of the drapes"},
-    {"triangles", at<&F::triangles>, "", between(100, 1e6), "", "of the disc; a budget has four times as many, too"},
-    {"step", at<&F::step>, "s", positive(), "", "of the drapes"},
-    {"tolerance", at<&F::tolerance>, "m", at_least(0), "", "of the parts of a step, as --tolerance of drape"},
-    {"samples", at<&F::samples>, "", between(2, 1000), "", "of a fabric's uncertain numbers, from the ranges that its file states"},
-    {"draws", at<&F::draws>, "", between(2, 1000), "", "meshes of each drape in a budget"},
-    {"seed", at<&F::seed>, "", any(), "", "of the samples"},
-    {"batch", at<&F::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
-    {"resume", at<&F::resume>, "", any(), "", "keeps the drapes that have run whose request, program and files are the same"},
-    {"seconds", at<&F::seconds>, "s", at_least(0), "", "longest simulated time of a drape; 0: as drape has it"},
+    {"parts", at<&F::parts>, "", any(), "separated by commas: spread (drapes with uncertain numbers), budget (what each uncertain number explains), figure (of recorded results)"},
+    {"recorded", at<&F::recorded>, "", any(), "folder of results that the part `figure` draws"},
+    {"standard", at<&F::standard>, "", any(), "of the drapes: the tester that the fabric's file names, or one for all"},
+    {"fabrics", at<&F::fabrics>, "", any(), "those that publish a drape coefficient, separated by commas"},
+    {"laws", at<&F::law>, "", any(), "of the drapes; one"},
+    {"device", at<&F::device>, "", any(), "of the drapes"},
+    {"triangles", at<&F::triangles>, "", between(100, 1e6), "of the disc; a budget has four times as many, too"},
+    {"step", at<&F::step>, "s", positive(), "of the drapes"},
+    {"tolerance", at<&F::tolerance>, "m", at_least(0), "of the parts of a step, as --tolerance of drape"},
+    {"samples", at<&F::samples>, "", between(2, 1000), "of a fabric's uncertain numbers, from the ranges that its file states"},
+    {"draws", at<&F::draws>, "", between(2, 1000), "meshes of each drape in a budget"},
+    {"seed", at<&F::seed>, "", any(), "of the samples"},
+    {"batch", at<&F::batch>, "", between(1, kLargestBatch), kBatchDoc},
+    {"resume", at<&F::resume>, "", any(), "keeps the drapes that have run whose request, program and files are the same"},
+    {"seconds", at<&F::seconds>, "s", at_least(0), "longest simulated time of a drape; 0: as drape has it"},
 };
 // clang-format on
 

@@ -140,7 +140,9 @@ void add_unrecorded(const Manifest& recorded, const Manifest& now, Repetition& r
 }
 
 Json without_origins(Json scene) {
-  for (const char* key : {"threads", "device", "origin"}) scene.erase(key);
+  for (const KeyDescription& key : scene_keys())
+    if (key.traits.scope == Scope::run) scene.erase(key.path);
+  scene.erase("origin");
   if (scene.contains("fabric") && scene["fabric"].is_object()) scene["fabric"].erase("provenance");
   return scene;
 }

@@ -31,12 +31,12 @@ struct VerifyParams {
 using V = VerifyParams;
 // clang-format off
 const KeyRow<V> kRows[] = {
-    {"at-most", at<&V::at_most>, "s", at_least(0), "", "only runs that have taken this wall clock time or less, and no GPU; 0: all; with --quick 4 s unless given"},
-    {"device", at<&V::device>, "", any(), "", "auto | cpu | cuda | cuda:N: where to repeat them in place of where they ran"},
-    {"threads", at<&V::threads>, "", between(0, 1024), "", "CPU threads of each run; 0: its share of the cores"},
-    {"exact", at<&V::exact>, "", any(), "", "the same bits are required of runs by another build or device, too"},
-    {"limits", at<&V::limits>, "", any(), "", "a TOML file of limits on pictures and metrics, or one of assets/limits by its name"},
-    {"junit", at<&V::junit>, "", any(), "", "a JUnit XML file, with a test case for each run"},
+    {"at-most", at<&V::at_most>, "s", at_least(0), "only runs that have taken this wall clock time or less, and no GPU; 0: all; with --quick 4 s unless given"},
+    {"device", at<&V::device>, "", any(), "auto | cpu | cuda | cuda:N: where to repeat them in place of where they ran"},
+    {"threads", at<&V::threads>, "", between(0, 1024), "CPU threads of each run; 0: its share of the cores"},
+    {"exact", at<&V::exact>, "", any(), "the same bits are required of runs by another build or device, too"},
+    {"limits", at<&V::limits>, "", any(), "a TOML file of limits on pictures and metrics, or one of assets/limits by its name"},
+    {"junit", at<&V::junit>, "", any(), "a JUnit XML file, with a test case for each run"},
 };
 // clang-format on
 

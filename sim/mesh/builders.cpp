@@ -116,12 +116,9 @@ void check_size(double length, double width) {
 }  // namespace
 
 MeshFamily mesh_family(const std::string& name) {
+  if (const auto family = value_if_named<MeshFamily>(name)) return *family;
   std::string allowed;
-  for (std::size_t i = 0; i < names(MeshFamily{}).size(); ++i) {
-    const char* const text = names(MeshFamily{})[i];
-    if (name == text) return static_cast<MeshFamily>(i);
-    allowed += (i ? ", " : "") + std::string(text);
-  }
+  for (const std::string& known : every_name<MeshFamily>()) allowed += (allowed.empty() ? "" : ", ") + known;
   throw Error::invalid_input("mesh family \"" + name + "\" is unknown; allowed: " + allowed);
 }
 

@@ -32,6 +32,7 @@ struct FabLoops {
 };
 
 enum class TesterUnits { si, fab };
+constexpr std::array<const char*, 2> names(TesterUnits) { return {"si", "fab"}; }
 
 // Reads a table with the columns direction, test, branch, clamp_distance, force, gauge_length, width, their
 // units as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons

@@ -26,13 +26,13 @@ ClothMesh one_rest_mesh(const Scene& scene, std::vector<std::string>& warnings) 
   const ClothShape& c = scene.cloth;
   const int triangles = scene.triangles / c.copies;
   if (names_an_obj(scene.mesh)) return read_obj(scene.mesh, c.weld, c.unit, &warnings);
-  if (c.shape == "file") return read_obj(c.file, c.weld, c.unit, &warnings);
-  if (c.shape == "pattern") return read_pattern(c.file, c.weld, c.texture_scale, c.unit, &warnings);
+  if (c.shape == ClothOutline::file) return read_obj(c.file, c.weld, c.unit, &warnings);
+  if (c.shape == ClothOutline::pattern)
+    return read_pattern(c.file, c.weld, c.texture_scale, c.unit, &warnings);
   const MeshFamily family = mesh_family(scene.mesh);
-  if (c.shape == "disc") return make_disc(c.radius, triangles, family, scene.seed);
-  if (c.shape == "tube") return make_tube(c.length, c.radius, triangles, family, scene.seed);
-  const double width = c.shape == "square" ? c.length : c.width;
-  return make_rectangle(c.length, width, triangles, family, scene.seed);
+  if (c.shape == ClothOutline::disc) return make_disc(c.radius, triangles, family, scene.seed);
+  if (c.shape == ClothOutline::tube) return make_tube(c.length, c.radius, triangles, family, scene.seed);
+  return make_rectangle(c.length, c.side_along_weft(), triangles, family, scene.seed);
 }
 
 // Refuses copies whose boxes at rest are so near that contact takes them for neighbours in one cloth.
@@ -59,9 +59,9 @@ ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& warnings) {
 
 std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
   std::vector<int> vertices;
-  if (pin.select == "nearest") {
+  if (pin.select == PinSelection::nearest) {
     vertices.push_back(nearest_vertex(mesh, pin.point).vertex);
-  } else if (pin.select == "all-boundary") {
+  } else if (pin.select == PinSelection::all_boundary) {
     for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
       vertices.insert(vertices.end(), {mesh.edge[e].p2, mesh.edge[e].p3});
   } else {

@@ -119,9 +119,10 @@ struct Reader {
       if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
     }
     if (node.find("tester")) {
-      number.tester = text(node, "tester");
-      if (number.tester != "jis" && number.tester != "iso9073")
-        throw refusal(node.key + ": tester = \"" + number.tester + "\" must be jis | iso9073", node);
+      const std::string tester = text(node, "tester");
+      number.tester = value_if_named<DrapeStandard>(tester);
+      if (!number.tester)
+        throw refusal(node.key + ": tester = \"" + tester + "\" must be jis | iso9073", node);
     }
     return number;
   }

@@ -153,12 +153,6 @@ std::vector<double> parse_components(std::string text) {
   return components;
 }
 
-void split_choices(const char* text, KeyDescription& key) {
-  std::istringstream words(text);
-  for (std::string word; words >> word;)
-    if (word != "|") key.choices.push_back(word);
-}
-
 // Writes a default with four digits; "" for a value that is not set.
 std::string described_default(const Field& field) {
   const auto rounded = [](double x) { return std::isfinite(x) ? number_text(x, 4) : ""; };
@@ -183,10 +177,9 @@ std::string Range::text() const {
   return "finite";
 }
 
-KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
-                        const char* choices, const char* doc) {
-  KeyDescription key{path, type_name(field), unit, range, {}, doc, described_default(field)};
-  split_choices(choices, key);
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* doc,
+                        const KeyTraits& traits) {
+  KeyDescription key{path, type_name(field), unit, range, {}, doc, described_default(field), traits};
   if (const auto* named = std::get_if<NamedValue>(&field)) key.choices = named->names;
   return key;
 }

@@ -2,11 +2,12 @@
 // table with a line per key; reading, flags, messages, checks and the manifest all come from that table:
 //
 //   const KeyRow<Scene> kRows[] = {
-//       {"fabric.b2", at<&Scene::fabric, &Fabric::b2>, "N m", positive(), "", "bending rigidity B"}, ...
+//       {"fabric.b2", at<&Scene::fabric, &Fabric::b2>, "N m", positive(), "bending rigidity B"}, ...
 //
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -48,9 +49,7 @@ struct NamedValue {
 };
 template <Named E>
 NamedValue named_value(E* value) {
-  const auto all = names(E{});
-  return {value,
-          {all.begin(), all.end()},
+  return {value, every_name<E>(),
           [](void* of, std::size_t place) { *static_cast<E*>(of) = static_cast<E>(place); },
           [](const void* of) { return static_cast<std::size_t>(*static_cast<const E*>(of)); }};
 }
@@ -62,6 +61,67 @@ using Numbers = std::vector<double>;
 using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*,
                            NamedValue, Numbers*>;
 
+// What a key says beside its value: who takes it, and what has to follow from another value.  A row states
+// where it differs from a key of an experiment's own, which is part of what is simulated and recorded.
+
+// What changes with the key.
+enum class Scope {
+  states,  // what is simulated, and what an experiment finds
+  output,  // what is drawn, exported and counted of it
+  run,     // nothing of either: only where and how a run is executed, and what it prints
+  preset,  // other keys, which it sets and which are recorded: a scene, a camera, --quick
+};
+
+// The group of --help.
+enum class KeyGroup { own, scene, fabric, solver, pictures, running };
+constexpr std::array<const char*, 6> names(KeyGroup) {
+  return {"own", "scene", "fabric", "solver", "pictures", "running"};
+}
+
+// Who takes the key beside what simulates a cloth.
+enum class Takers {
+  simulations,  // nobody
+  laws,         // tests of a fabric's bending without cloth
+  files,        // pictures of mesh files
+  tools,        // what simulates nothing and writes a folder
+  all,          // files and tools
+};
+
+// What the columns of a page, which are runs of a sweep or a comparison, do with the key.
+enum class InColumns {
+  vary,   // each can have a value of its own
+  list,   // in addition several names in one flag make columns
+  share,  // all have the page's
+  leave,  // none has it: it is the page's alone
+};
+
+// Whether a text names a file, which may lie beside the scene's file.
+enum class NamesFile { no, one, pattern };
+
+struct KeyTraits {
+  Scope scope = Scope::states;
+  KeyGroup group = KeyGroup::own;
+  Takers takers = Takers::simulations;
+  InColumns in_columns = InColumns::vary;
+  bool repeats = true;  // repeats of a run for its errors have it, too; else they have its default
+  NamesFile file = NamesFile::no;
+  const char* flag = "";  // its name as a flag and in studies; "": its path
+  // A condition on other keys, without which nothing reads it, and its words for readers; "": none, or as
+  // flags express it (experiments/workbench/app/key_conditions.h).
+  const char* needs = "";
+  const char* needs_text = "";
+
+  constexpr KeyTraits needing(const char* condition, const char* words = "") const {
+    KeyTraits traits = *this;
+    traits.needs = condition;
+    traits.needs_text = words;
+    return traits;
+  }
+  // Does the manifest of a run hold its value, among the resolved keys?
+  constexpr bool is_recorded() const { return scope == Scope::states || scope == Scope::output; }
+  constexpr bool is_of_page() const { return in_columns == InColumns::leave; }
+};
+
 struct KeyDescription {
   std::string path;                  // "fabric.b2"
   std::string type;                  // flag | integer | number | vector | text | name=value | numbers
@@ -70,6 +130,9 @@ struct KeyDescription {
   std::vector<std::string> choices;  // the allowed texts; empty: any text
   std::string doc;                   // one line
   std::string default_text;          // the value when it was described, four digits; "": none, or a flag
+  KeyTraits traits = {};
+
+  std::string flag() const { return *traits.flag ? traits.flag : path; }
 };
 
 struct BoundKey {
@@ -78,15 +141,15 @@ struct BoundKey {
 };
 using Keys = std::vector<BoundKey>;
 
-// One line of a table.  Choices are written "sphere | box"; for an enumeration they are its names.
+// One line of a table.  The choices of an enumeration are its names.
 template <class Owner>
 struct KeyRow {
   const char* path;
   Field (*field)(Owner&);
   const char* unit;
   Range range;
-  const char* choices;
   const char* doc;
+  KeyTraits traits = {};
 };
 
 // Accessor for a table: at<&Scene::fabric, &Fabric::b2> is a function from Scene& to the address of the
@@ -100,15 +163,15 @@ Field at(Owner& owner) {
     return member;
 }
 
-KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
-                        const char* choices, const char* doc);
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* doc,
+                        const KeyTraits& traits = {});
 
 template <class Owner, class Rows>
 Keys bind(const Rows& rows, Owner& owner) {
   Keys keys;
   for (const KeyRow<Owner>& row : rows) {
     const Field field = row.field(owner);
-    keys.push_back({describe(row.path, field, row.unit, row.range, row.choices, row.doc), field});
+    keys.push_back({describe(row.path, field, row.unit, row.range, row.doc, row.traits), field});
   }
   return keys;
 }

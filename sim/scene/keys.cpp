@@ -19,145 +19,162 @@ using B = BendingParts;
 using P = InPlaneStops;
 
 // clang-format off
+// What a cloth's keys, a fabric's, the solver's and the machine's have in common.
+constexpr KeyTraits kCloth{.group = KeyGroup::scene};
+constexpr KeyTraits kClothFile{.group = KeyGroup::scene, .file = NamesFile::one};
+constexpr KeyTraits kFabric{.group = KeyGroup::fabric};
+constexpr KeyTraits kBending{.group = KeyGroup::fabric, .takers = Takers::laws};
+constexpr KeyTraits kFabricName{.group = KeyGroup::fabric, .takers = Takers::laws, .in_columns = InColumns::list, .file = NamesFile::one, .flag = "fabric"};
+constexpr KeyTraits kLaw{.group = KeyGroup::fabric, .in_columns = InColumns::list};
+constexpr KeyTraits kSolver{.group = KeyGroup::solver};
+constexpr KeyTraits kIntegrator{.group = KeyGroup::solver, .in_columns = InColumns::list};
+constexpr KeyTraits kMachine{.scope = Scope::run, .group = KeyGroup::running};
+constexpr KeyTraits kThreads{.scope = Scope::run, .group = KeyGroup::running, .in_columns = InColumns::leave};
+
+constexpr const char* kMovable = "cloth.start != *.obj and cloth.shape != pattern";
+constexpr const char* kMovableWords = "a cloth whose start no file says";
+constexpr const char* kNewton = "integrator = implicit | bdf2 | tr-bdf2 | quasi-static or self-contact";
+constexpr const char* kNewtonWords = "--integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact";
+
 const KeyRow<Scene> kSceneRows[] = {
-    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | tube | file | pattern", "outline of the cloth; file: an OBJ; pattern: the texture coordinates of an OBJ, whose islands are panels sewn along their seams, and which starts where its vertices are"},
-    {"cloth.length", at<&S::cloth, &C::length>, "m", positive(), "", "along warp (square, strip, tube)"},
-    {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "", "along weft (strip; a square takes cloth.length)"},
-    {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "", "of the disc, the tube, the loops of a knot or the turns of pleats"},
-    {"cloth.file", at<&S::cloth, &C::file>, "", any(), "", "OBJ of the rest shape (file), or with it as texture coordinates (pattern)"},
-    {"cloth.unit", at<&S::cloth, &C::unit>, "", any(), "", "of length in the OBJs of cloth.file, cloth.start and mesh"},
-    {"cloth.weld", at<&S::cloth, &C::weld>, "m", at_least(0), "", "vertices of an OBJ closer than this are merged; 0: none are"},
-    {"cloth.texture-scale", at<&S::cloth, &C::texture_scale>, "m", positive(), "", "pattern: length of a unit of the texture coordinates"},
-    {"cloth.subdivisions", at<&S::cloth, &C::subdivisions>, "", between(0, 8), "", "how many times each triangle is cut into four, a finer mesh where a file has the triangles"},
-    {"cloth.position", at<&S::cloth, &C::position>, "m", any(), "", "of the rest shape's origin at the start"},
-    {"cloth.rotation", at<&S::cloth, &C::rotation>, "degree", any(), "", "about x, y, z in this order at the start"},
-    {"cloth.warp-angle", at<&S::cloth, &C::warp_angle>, "degree", any(), "", "warp direction against the rest shape's x axis, or the first texture coordinate of an OBJ"},
-    {"cloth.start", at<&S::cloth, &C::start>, "", any(), "", "shape at the start: rest, that at rest; knot, a strip in an open overhand knot of two loops; pleats, a strip or square laid in pleats; or an OBJ of the same triangles, FILE.obj"},
-    {"cloth.pleats", at<&S::cloth, &C::pleats>, "", between(2, 1000), "", "layers of the pleats"},
-    {"cloth.copies", at<&S::cloth, &C::copies>, "", between(1, 1000), "", "as many cloths of this shape, which share the triangles"},
-    {"cloth.copy-offset", at<&S::cloth, &C::copy_offset>, "m", any(), "", "from one copy to the next, at rest and at the start: pins tell copies apart by it"},
-    {"cloth.copy-turn", at<&S::cloth, &C::copy_turn>, "degree", between(0, 180), "", "each copy starts turned by up to this, at random, about z through its middle"},
-    {"cloth.copy-scatter", at<&S::cloth, &C::copy_scatter>, "m", at_least(0), "", "each copy starts moved by up to this, at random, along x and along y"},
-    {"fabric.name", at<&S::fabric, &F::name>, "", any(), "", "a fabric of assets/fabrics or a file; loads all its numbers"},
-    {"fabric.b1", at<&S::fabric, &F::b1>, "N m", at_least(0), "", "bending rigidity at first bending, >= fabric.b2"},
-    {"fabric.b2", at<&S::fabric, &F::b2>, "N m", at_least(0), "", "bending rigidity B, slope of the straight branch of the KES-FB2 curve"},
-    {"fabric.k0", at<&S::fabric, &F::k0>, "1/m", at_least(0), "", "curvature at which bending friction saturates"},
-    {"fabric.kes-b", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::rigidity>, "N m", at_least(0), "", "B of KES-FB2, with kes-2hb in place of b1 and b2: b2 = B, b1 = B + 2HB/k0"},
-    {"fabric.kes-2hb", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::loop_width>, "N", at_least(0), "", "2HB of KES-FB2, with kes-b"},
-    {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "", "with kes-b and kes-2hb: curvature at which half of the friction has slipped, in place of k0; 0: as k0 or bending.stops say"},
-    {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "", "standard deviation of the logarithm of that curvature"},
-    {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "", "bending rigidity along weft over that along warp"},
-    {"fabric.weft-friction", at<&S::fabric, &F::weft_friction>, "", at_least(0), "", "friction moment along weft over that along warp, which laws with friction beside b2 follow; 0: the root of weft-bending, as one law along all directions has it"},
-    {"fabric.back-bending", at<&S::fabric, &F::bending, &B::faces, &Faces::bending>, "", positive(), "", "prandtl, linear: bending rigidity B of bends to the back, K < 0, over that of bends to the face, K > 0, where the side from which triangles run counter-clockwise becomes concave; other laws have the mean of both"},
-    {"fabric.back-friction", at<&S::fabric, &F::bending, &B::faces, &Faces::friction>, "", positive(), "", "prandtl: friction moment of bends to the back over that of bends to the face, which b1, b2 and k0 or bending.stops have"},
-    {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending; where it is not stated, or only assumed, the mean of 1 and weft-bending"},
-    {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "", "mass per area"},
-    {"fabric.thickness", at<&S::fabric, &F::thickness>, "m", positive(), "", "thickness"},
-    {"fabric.warp", at<&S::fabric, &F::warp>, "N/m", positive(), "", "membrane stiffness along warp"},
-    {"fabric.weft", at<&S::fabric, &F::weft>, "N/m", positive(), "", "membrane stiffness along weft"},
-    {"fabric.coupling", at<&S::fabric, &F::coupling>, "N/m", any(), "", "membrane coupling C12 of warp and weft; its square < warp times weft"},
-    {"fabric.shear", at<&S::fabric, &F::shear>, "N/m", at_least(0), "", "in-plane shear stiffness"},
-    {"fabric.damping", at<&S::fabric, &F::damping>, "s", at_least(0), "", "viscosity over stiffness, of the membrane and of bending (b1)"},
-    {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "", "Coulomb coefficient against obstacles and itself"},
-    {"fabric.bending.stops.thresholds", at<&S::fabric, &F::bending, &B::stops, &Spectrum::thresholds>, "1/m", positive(), "", "prandtl, chapman: curvatures at which friction elements slip, ascending; none: b1, b2 and k0 say how"},
-    {"fabric.bending.stops.stiffnesses", at<&S::fabric, &F::bending, &B::stops, &Spectrum::stiffnesses>, "N m", positive(), "", "of these elements, beside fabric.b2"},
-    {"fabric.bending.stops.weft.thresholds", at<&S::fabric, &F::bending, &B::weft_stops, &Spectrum::thresholds>, "1/m", positive(), "", "the same for bends along weft; none: as fabric.weft-bending has it"},
-    {"fabric.bending.stops.weft.stiffnesses", at<&S::fabric, &F::bending, &B::weft_stops, &Spectrum::stiffnesses>, "N m", positive(), "", "the same for bends along weft"},
-    {"fabric.bending.branches.times", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::times>, "s", positive(), "", "chapman: times in which viscoelastic branches relax, ascending"},
-    {"fabric.bending.branches.stiffnesses", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::stiffnesses>, "N m", positive(), "", "of these branches, beside fabric.b2"},
-    {"fabric.bending.set.yield", at<&S::fabric, &F::bending, &B::set, &PermanentSet::yield>, "1/m", at_least(0), "", "prandtl, chapman: curvature over fabric.b2 times which a moment leaves permanent set"},
-    {"fabric.bending.set.hardening", at<&S::fabric, &F::bending, &B::set, &PermanentSet::hardening>, "N m", at_least(0), "", "by which that moment rises with the set; 0: no set"},
-    {"fabric.membrane.stops.warp.thresholds", at<&S::fabric, &F::in_plane, &P::warp, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of stretch along warp slip, ascending; none: elastic"},
-    {"fabric.membrane.stops.warp.stiffnesses", at<&S::fabric, &F::in_plane, &P::warp, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.warp"},
-    {"fabric.membrane.stops.weft.thresholds", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of stretch along weft slip, ascending; none: elastic"},
-    {"fabric.membrane.stops.weft.stiffnesses", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.weft"},
-    {"fabric.membrane.stops.shear.thresholds", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of in-plane shear slip, ascending; none: elastic"},
-    {"fabric.membrane.stops.shear.stiffnesses", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.shear"},
-    {"fabric.membrane.stops.shear.growth", at<&S::fabric, &F::in_plane, &P::shear_growth>, "", between(0, 1e3), "", "by which those strains grow with the shear that the cloth has, per unit of it: r (1 + growth |shear|); 0: they do not"},
-    {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
-    {"param", at<&S::param>, "", any(), "", "parameters of the law by name; the table [param] of a file"},
-    {"element", at<&S::element>, "", any(), "", "bending element"},
-    {"membrane.element", at<&S::membrane_element>, "", any(), "", "where strains along warp and weft are taken: constant, of each triangle, which locks if they are stiff; nodal, beyond 1 kN/m their means at nodes"},
-    {"force", at<&S::force>, "", any(), "", "bending force convention (chapter: hinge only)"},
-    {"mesh", at<&S::mesh>, "", any(), "", "family: aligned, aligned-45, flipped, unionjack, equilateral or random; or an OBJ of the rest shape, FILE.obj"},
-    {"triangles", at<&S::triangles>, "", between(1, 1e8), "", "about this many triangles"},
-    {"integrator", at<&S::integrator>, "", any(), "", "time integration"},
-    {"step", at<&S::step>, "s", {0, 1, true}, "", "large time step"},
-    {"substeps", at<&S::substeps>, "", between(0, 1e6), "", "explicit bending steps per large step; 0: the smallest stable number"},
-    {"implicit-every", at<&S::implicit_every>, "", any(), "", "implicit solve once per substep, or per step as the chapter has it"},
-    {"solver-tolerance", at<&S::solver_tolerance>, "", {0, 0.1, true}, "", "relative residual of the implicit solve"},
-    {"newton-residual", at<&S::newton_residual>, "", {0, 1, true}, "", "implicit, bdf2, tr-bdf2, quasi-static: unbalanced force over weight and reactions at which a step has converged"},
-    {"newton-velocity", at<&S::newton_velocity>, "m/s", at_least(0), "", "implicit, bdf2, tr-bdf2: or the mean correction over the step's time"},
-    {"newton-iterations", at<&S::newton_iterations>, "", between(0, 1e6), "", "implicit, bdf2, tr-bdf2: most iterations, after which the step is taken as it is and what is unbalanced is booked; 0: until it converges, in parts where it does not"},
-    {"tolerance", at<&S::tolerance>, "m", at_least(0), "", "semi-implicit, implicit, bdf2, tr-bdf2: divides steps into parts, each with an estimated position error below this; 0: off"},
-    {"ramp", at<&S::ramp>, "s", at_least(0), "", "quasi-static: time in which the weight grows to its full value"},
-    {"unload", at<&S::unload>, "s", at_least(0), "", "quasi-static: time after the ramp in which the weight falls to zero; 0: it stays"},
-    {"linear-solver", at<&S::linear_solver>, "", any(), "", "implicit, bdf2, tr-bdf2, quasi-static: preconditioner of conjugate gradients"},
-    {"linear-precision", at<&S::linear_precision>, "", any(), "", "implicit, bdf2, tr-bdf2, quasi-static, with precision = double: of conjugate gradients; state, forces and energies stay double"},
-    {"device", at<&S::device>, "", any(), "", "where the simulation runs; as a flag also cuda:N, GPU N of several"},
-    {"precision", at<&S::precision>, "", any(), "", "of the simulation"},
-    {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: OMP_NUM_THREADS, else all cores"},
-    {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
-    {"cycles", at<&S::cycles>, "", between(1, 1000), "", "how often the phases with repeat are gone through, one time after the other"},
-    {"gravity", at<&S::gravity>, "m/s^2", between(-1e4, 1e4), "", "acceleration"},
-    {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
-    {"self-contact", at<&S::self_contact>, "", any(), "", "cloth cannot pass through itself"},
-    {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "of obstacles, per area, pressed in by a fifth of the thickness; 0: that of layers"},
-    {"seed", at<&S::seed>, "", at_least(0), "", "of random meshes"},
+    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "outline of the cloth; file: an OBJ; pattern: the texture coordinates of an OBJ, whose islands are panels sewn along their seams, and which starts where its vertices are", kCloth},
+    {"cloth.length", at<&S::cloth, &C::length>, "m", positive(), "along warp (square, strip, tube)", kCloth.needing("cloth.shape = square | strip | tube and mesh != *.obj", "--cloth.shape square, strip or tube")},
+    {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "along weft (strip; a square takes cloth.length)", kCloth.needing("cloth.shape = strip and mesh != *.obj", "--cloth.shape strip")},
+    {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "of the disc, the tube, the loops of a knot or the turns of pleats", kCloth.needing("cloth.shape = disc | tube and mesh != *.obj or cloth.start = knot | pleats", "--cloth.shape disc or tube, or --cloth.start knot or pleats")},
+    {"cloth.file", at<&S::cloth, &C::file>, "", any(), "OBJ of the rest shape (file), or with it as texture coordinates (pattern)", kClothFile.needing("cloth.shape = file | pattern")},
+    {"cloth.unit", at<&S::cloth, &C::unit>, "", any(), "of length in the OBJs of cloth.file, cloth.start and mesh", kCloth},
+    {"cloth.weld", at<&S::cloth, &C::weld>, "m", at_least(0), "vertices of an OBJ closer than this are merged; 0: none are", kCloth.needing("cloth.shape = file | pattern or mesh = *.obj or cloth.start = *.obj", "a cloth that is read from an OBJ")},
+    {"cloth.texture-scale", at<&S::cloth, &C::texture_scale>, "m", positive(), "pattern: length of a unit of the texture coordinates", kCloth.needing("cloth.shape = pattern and mesh != *.obj", "--cloth.shape pattern")},
+    {"cloth.subdivisions", at<&S::cloth, &C::subdivisions>, "", between(0, 8), "how many times each triangle is cut into four, a finer mesh where a file has the triangles", kCloth},
+    {"cloth.position", at<&S::cloth, &C::position>, "m", any(), "of the rest shape's origin at the start", kCloth},
+    {"cloth.rotation", at<&S::cloth, &C::rotation>, "degree", any(), "about x, y, z in this order at the start", kCloth},
+    {"cloth.warp-angle", at<&S::cloth, &C::warp_angle>, "degree", any(), "warp direction against the rest shape's x axis, or the first texture coordinate of an OBJ", kCloth},
+    {"cloth.start", at<&S::cloth, &C::start>, "", any(), "shape at the start: rest, that at rest; knot, a strip in an open overhand knot of two loops; pleats, a strip or square laid in pleats; or an OBJ of the same triangles, FILE.obj", kClothFile},
+    {"cloth.pleats", at<&S::cloth, &C::pleats>, "", between(2, 1000), "layers of the pleats", kCloth.needing("cloth.start = pleats")},
+    {"cloth.copies", at<&S::cloth, &C::copies>, "", between(1, 1000), "as many cloths of this shape, which share the triangles", kCloth},
+    {"cloth.copy-offset", at<&S::cloth, &C::copy_offset>, "m", any(), "from one copy to the next, at rest and at the start: pins tell copies apart by it", kCloth.needing("cloth.copies > 1")},
+    {"cloth.copy-turn", at<&S::cloth, &C::copy_turn>, "degree", between(0, 180), "each copy starts turned by up to this, at random, about z through its middle", kCloth.needing(kMovable, kMovableWords)},
+    {"cloth.copy-scatter", at<&S::cloth, &C::copy_scatter>, "m", at_least(0), "each copy starts moved by up to this, at random, along x and along y", kCloth.needing(kMovable, kMovableWords)},
+    {"fabric.name", at<&S::fabric, &F::name>, "", any(), "a fabric of assets/fabrics or a file; loads all its numbers", kFabricName},
+    {"fabric.b1", at<&S::fabric, &F::b1>, "N m", at_least(0), "bending rigidity at first bending, >= fabric.b2", kBending},
+    {"fabric.b2", at<&S::fabric, &F::b2>, "N m", at_least(0), "bending rigidity B, slope of the straight branch of the KES-FB2 curve", kBending},
+    {"fabric.k0", at<&S::fabric, &F::k0>, "1/m", at_least(0), "curvature at which bending friction saturates", kBending},
+    {"fabric.kes-b", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::rigidity>, "N m", at_least(0), "B of KES-FB2, with kes-2hb in place of b1 and b2: b2 = B, b1 = B + 2HB/k0", kBending},
+    {"fabric.kes-2hb", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::loop_width>, "N", at_least(0), "2HB of KES-FB2, with kes-b", kBending},
+    {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "with kes-b and kes-2hb: curvature at which half of the friction has slipped, in place of k0; 0: as k0 or bending.stops say", kBending},
+    {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "standard deviation of the logarithm of that curvature", kBending},
+    {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "bending rigidity along weft over that along warp", kFabric},
+    {"fabric.weft-friction", at<&S::fabric, &F::weft_friction>, "", at_least(0), "friction moment along weft over that along warp, which laws with friction beside b2 follow; 0: the root of weft-bending, as one law along all directions has it", kFabric},
+    {"fabric.back-bending", at<&S::fabric, &F::bending, &B::faces, &Faces::bending>, "", positive(), "prandtl, linear: bending rigidity B of bends to the back, K < 0, over that of bends to the face, K > 0, where the side from which triangles run counter-clockwise becomes concave; other laws have the mean of both", kBending},
+    {"fabric.back-friction", at<&S::fabric, &F::bending, &B::faces, &Faces::friction>, "", positive(), "prandtl: friction moment of bends to the back over that of bends to the face, which b1, b2 and k0 or bending.stops have", kBending},
+    {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending; where it is not stated, or only assumed, the mean of 1 and weft-bending", kFabric},
+    {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "mass per area", kFabric},
+    {"fabric.thickness", at<&S::fabric, &F::thickness>, "m", positive(), "thickness", kFabric},
+    {"fabric.warp", at<&S::fabric, &F::warp>, "N/m", positive(), "membrane stiffness along warp", kFabric},
+    {"fabric.weft", at<&S::fabric, &F::weft>, "N/m", positive(), "membrane stiffness along weft", kFabric},
+    {"fabric.coupling", at<&S::fabric, &F::coupling>, "N/m", any(), "membrane coupling C12 of warp and weft; its square < warp times weft", kFabric},
+    {"fabric.shear", at<&S::fabric, &F::shear>, "N/m", at_least(0), "in-plane shear stiffness", kFabric},
+    {"fabric.damping", at<&S::fabric, &F::damping>, "s", at_least(0), "viscosity over stiffness, of the membrane and of bending (b1)", kFabric},
+    {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "Coulomb coefficient against obstacles and itself", kFabric},
+    {"fabric.bending.stops.thresholds", at<&S::fabric, &F::bending, &B::stops, &Spectrum::thresholds>, "1/m", positive(), "prandtl, chapman: curvatures at which friction elements slip, ascending; none: b1, b2 and k0 say how", kBending},
+    {"fabric.bending.stops.stiffnesses", at<&S::fabric, &F::bending, &B::stops, &Spectrum::stiffnesses>, "N m", positive(), "of these elements, beside fabric.b2", kBending},
+    {"fabric.bending.stops.weft.thresholds", at<&S::fabric, &F::bending, &B::weft_stops, &Spectrum::thresholds>, "1/m", positive(), "the same for bends along weft; none: as fabric.weft-bending has it", kBending},
+    {"fabric.bending.stops.weft.stiffnesses", at<&S::fabric, &F::bending, &B::weft_stops, &Spectrum::stiffnesses>, "N m", positive(), "the same for bends along weft", kBending},
+    {"fabric.bending.branches.times", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::times>, "s", positive(), "chapman: times in which viscoelastic branches relax, ascending", kBending},
+    {"fabric.bending.branches.stiffnesses", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::stiffnesses>, "N m", positive(), "of these branches, beside fabric.b2", kBending},
+    {"fabric.bending.set.yield", at<&S::fabric, &F::bending, &B::set, &PermanentSet::yield>, "1/m", at_least(0), "prandtl, chapman: curvature over fabric.b2 times which a moment leaves permanent set", kBending},
+    {"fabric.bending.set.hardening", at<&S::fabric, &F::bending, &B::set, &PermanentSet::hardening>, "N m", at_least(0), "by which that moment rises with the set; 0: no set", kBending},
+    {"fabric.membrane.stops.warp.thresholds", at<&S::fabric, &F::in_plane, &P::warp, &Spectrum::thresholds>, "", positive(), "strains at which friction elements of stretch along warp slip, ascending; none: elastic", kFabric},
+    {"fabric.membrane.stops.warp.stiffnesses", at<&S::fabric, &F::in_plane, &P::warp, &Spectrum::stiffnesses>, "N/m", positive(), "of these elements, beside fabric.warp", kFabric},
+    {"fabric.membrane.stops.weft.thresholds", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::thresholds>, "", positive(), "strains at which friction elements of stretch along weft slip, ascending; none: elastic", kFabric},
+    {"fabric.membrane.stops.weft.stiffnesses", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::stiffnesses>, "N/m", positive(), "of these elements, beside fabric.weft", kFabric},
+    {"fabric.membrane.stops.shear.thresholds", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::thresholds>, "", positive(), "strains at which friction elements of in-plane shear slip, ascending; none: elastic", kFabric},
+    {"fabric.membrane.stops.shear.stiffnesses", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::stiffnesses>, "N/m", positive(), "of these elements, beside fabric.shear", kFabric},
+    {"fabric.membrane.stops.shear.growth", at<&S::fabric, &F::in_plane, &P::shear_growth>, "", between(0, 1e3), "by which those strains grow with the shear that the cloth has, per unit of it: r (1 + growth |shear|); 0: they do not", kFabric},
+    {"law", at<&S::law>, "", any(), "moment-curvature law", kLaw},
+    {"param", at<&S::param>, "", any(), "parameters of the law by name; the table [param] of a file", kFabric},
+    {"element", at<&S::element>, "", any(), "bending element", kFabric},
+    {"membrane.element", at<&S::membrane_element>, "", any(), "where strains along warp and weft are taken: constant, of each triangle, which locks if they are stiff; nodal, beyond 1 kN/m their means at nodes", kCloth},
+    {"force", at<&S::force>, "", any(), "bending force convention (chapter: hinge only)", kFabric},
+    {"mesh", at<&S::mesh>, "", any(), "family: aligned, aligned-45, flipped, unionjack, equilateral or random; or an OBJ of the rest shape, FILE.obj", kClothFile},
+    {"triangles", at<&S::triangles>, "", between(1, 1e8), "about this many triangles", kCloth.needing("cloth.shape != file | pattern and mesh != *.obj", "a cloth whose mesh is built, not read from a file")},
+    {"integrator", at<&S::integrator>, "", any(), "time integration", kIntegrator},
+    {"step", at<&S::step>, "s", {0, 1, true}, "large time step", kSolver},
+    {"substeps", at<&S::substeps>, "", between(0, 1e6), "explicit bending steps per large step; 0: the smallest stable number", kSolver.needing("integrator = semi-implicit | explicit")},
+    {"implicit-every", at<&S::implicit_every>, "", any(), "implicit solve once per substep, or per step as the chapter has it", kSolver.needing("integrator = semi-implicit")},
+    {"solver-tolerance", at<&S::solver_tolerance>, "", {0, 0.1, true}, "relative residual of the implicit solve", kSolver.needing("integrator = semi-implicit")},
+    {"newton-residual", at<&S::newton_residual>, "", {0, 1, true}, "implicit, bdf2, tr-bdf2, quasi-static: unbalanced force over weight and reactions at which a step has converged", kSolver.needing(kNewton, kNewtonWords)},
+    {"newton-velocity", at<&S::newton_velocity>, "m/s", at_least(0), "implicit, bdf2, tr-bdf2: or the mean correction over the step's time", kSolver.needing(kNewton, kNewtonWords)},
+    {"newton-iterations", at<&S::newton_iterations>, "", between(0, 1e6), "implicit, bdf2, tr-bdf2: most iterations, after which the step is taken as it is and what is unbalanced is booked; 0: until it converges, in parts where it does not", kSolver.needing("integrator = implicit | bdf2 | tr-bdf2 or integrator = semi-implicit and self-contact", "--integrator implicit, bdf2 or tr-bdf2, or semi-implicit with --self-contact")},
+    {"tolerance", at<&S::tolerance>, "m", at_least(0), "semi-implicit, implicit, bdf2, tr-bdf2: divides steps into parts, each with an estimated position error below this; 0: off", kSolver},
+    {"ramp", at<&S::ramp>, "s", at_least(0), "quasi-static: time in which the weight grows to its full value", kSolver.needing("integrator = quasi-static")},
+    {"unload", at<&S::unload>, "s", at_least(0), "quasi-static: time after the ramp in which the weight falls to zero; 0: it stays", kSolver.needing("integrator = quasi-static")},
+    {"linear-solver", at<&S::linear_solver>, "", any(), "implicit, bdf2, tr-bdf2, quasi-static: preconditioner of conjugate gradients", kSolver.needing(kNewton, kNewtonWords)},
+    {"linear-precision", at<&S::linear_precision>, "", any(), "implicit, bdf2, tr-bdf2, quasi-static, with precision = double: of conjugate gradients; state, forces and energies stay double", kSolver.needing("precision = double and integrator = implicit | bdf2 | tr-bdf2 | quasi-static or precision = double and self-contact", "--precision double and --integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact")},
+    {"device", at<&S::device>, "", any(), "where the simulation runs; as a flag also cuda:N, GPU N of several", kMachine},
+    {"precision", at<&S::precision>, "", any(), "of the simulation", kSolver},
+    {"threads", at<&S::threads>, "", between(0, 1024), "CPU threads; 0: OMP_NUM_THREADS, else all cores", kThreads},
+    {"seconds", at<&S::seconds>, "s", at_least(0), "simulated time", kCloth},
+    {"cycles", at<&S::cycles>, "", between(1, 1000), "how often the phases with repeat are gone through, one time after the other", kCloth},
+    {"gravity", at<&S::gravity>, "m/s^2", between(-1e4, 1e4), "acceleration", kCloth},
+    {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "linear drag per area", kCloth},
+    {"self-contact", at<&S::self_contact>, "", any(), "cloth cannot pass through itself", kCloth},
+    {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "of obstacles, per area, pressed in by a fifth of the thickness; 0: that of layers", kCloth},
+    {"seed", at<&S::seed>, "", at_least(0), "of random meshes", kCloth.needing("mesh = random and cloth.shape != file | pattern or cloth.copy-turn > 0 or cloth.copy-scatter > 0", "--mesh random, --cloth.copy-turn or --cloth.copy-scatter")},
 };
 
 const KeyRow<Pin> kPinRows[] = {
-    {"select", at<&Pin::select>, "", any(), "box | nearest | all-boundary", "which vertices of the rest shape are held"},
-    {"low", at<&Pin::low>, "m", any(), "", "corner of the box"},
-    {"high", at<&Pin::high>, "m", any(), "", "opposite corner of the box, >= low"},
-    {"point", at<&Pin::point>, "m", any(), "", "the nearest vertex to this is held (nearest)"},
-    {"from", at<&Pin::from>, "s", at_least(0), "", "held from this time on, at their positions then"},
-    {"until", at<&Pin::until>, "s", at_least(0), "", "released at this time; 1e30: never"},
-    {"home", at<&Pin::home>, "s", at_least(0), "", "time in which they return to where they were at the start; 0: they do not"},
-    {"strength", at<&Pin::strength>, "N", at_least(0), "", "largest force on all that it holds, which then lags behind; 0: none, they go all the way that the cloth leaves free"},
-    {"axis", at<&Pin::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
-    {"center", at<&Pin::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
+    {"select", at<&Pin::select>, "", any(), "which vertices of the rest shape are held"},
+    {"low", at<&Pin::low>, "m", any(), "corner of the box"},
+    {"high", at<&Pin::high>, "m", any(), "opposite corner of the box, >= low"},
+    {"point", at<&Pin::point>, "m", any(), "the nearest vertex to this is held (nearest)"},
+    {"from", at<&Pin::from>, "s", at_least(0), "held from this time on, at their positions then"},
+    {"until", at<&Pin::until>, "s", at_least(0), "released at this time; 1e30: never"},
+    {"home", at<&Pin::home>, "s", at_least(0), "time in which they return to where they were at the start; 0: they do not"},
+    {"strength", at<&Pin::strength>, "N", at_least(0), "largest force on all that it holds, which then lags behind; 0: none, they go all the way that the cloth leaves free"},
+    {"axis", at<&Pin::motion, &Motion::axis>, "", any(), "of the motion's rotation"},
+    {"center", at<&Pin::motion, &Motion::center>, "m", any(), "of the motion's rotation"},
 };
 
 const KeyRow<Obstacle> kObstacleRows[] = {
-    {"kind", at<&Obstacle::kind>, "", any(), "", "solid; hollow: a sphere with the cloth inside; mesh: a body of triangles, those of a file"},
-    {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane; mesh: where the origin of its file is; others: the middle"},
-    {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule, torus: direction; box: that of its edges along z, with which it is turned"},
-    {"size", at<&Obstacle::size>, "m", positive(), "", "of the box: half edges"},
-    {"radius", at<&Obstacle::radius>, "m", positive(), "", "of sphere, hollow, cylinder and capsule; of the torus to the middle of its wire"},
-    {"height", at<&Obstacle::height>, "m", positive(), "", "of cylinder and capsule: length of the axis; of the torus: thickness of its wire"},
-    {"rim", at<&Obstacle::rim>, "m", at_least(0), "", "of cylinder and box: radius of the rounded edges"},
-    {"file", at<&Obstacle::file>, "", any(), "", "mesh: OBJ or PLY of its triangles"},
-    {"unit", at<&Obstacle::unit>, "", any(), "", "mesh: of length in its files"},
-    {"sequence", at<&Obstacle::sequence>, "", any(), "", "mesh: where its vertices are from frame to frame: OBJ or PLY files of the same triangles by a pattern, \"walk/*.obj\", in the order of their names, or a point cache, .pc2 or .mdd; none: it is rigid"},
-    {"fps", at<&Obstacle::fps>, "1/s", at_least(0), "", "mesh: frames of the sequence a second, the first one at t = 0; 0: as the times of an .mdd say"},
-    {"friction", at<&Obstacle::friction>, "", at_least(-1), "", "Coulomb coefficient; negative: the fabric's"},
-    {"body", at<&Obstacle::body>, "", any(), "", "name that obstacles share which act as one, their union: a limb of two capsules; none: each by itself"},
-    {"visible", at<&Obstacle::visible>, "", any(), "", "drawn in pictures"},
-    {"from", at<&Obstacle::from>, "s", at_least(0), "", "appears at this time"},
-    {"until", at<&Obstacle::until>, "s", at_least(0), "", "removed at this time; 1e30: never"},
-    {"motion-axis", at<&Obstacle::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
-    {"motion-center", at<&Obstacle::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
+    {"kind", at<&Obstacle::kind>, "", any(), "solid; hollow: a sphere with the cloth inside; mesh: a body of triangles, those of a file"},
+    {"center", at<&Obstacle::center>, "m", any(), "ground: a point of the plane; mesh: where the origin of its file is; others: the middle"},
+    {"axis", at<&Obstacle::axis>, "", any(), "ground: normal; cylinder, capsule, torus: direction; box: that of its edges along z, with which it is turned"},
+    {"size", at<&Obstacle::size>, "m", positive(), "of the box: half edges"},
+    {"radius", at<&Obstacle::radius>, "m", positive(), "of sphere, hollow, cylinder and capsule; of the torus to the middle of its wire"},
+    {"height", at<&Obstacle::height>, "m", positive(), "of cylinder and capsule: length of the axis; of the torus: thickness of its wire"},
+    {"rim", at<&Obstacle::rim>, "m", at_least(0), "of cylinder and box: radius of the rounded edges"},
+    {"file", at<&Obstacle::file>, "", any(), "mesh: OBJ or PLY of its triangles", {.file = NamesFile::one}},
+    {"unit", at<&Obstacle::unit>, "", any(), "mesh: of length in its files"},
+    {"sequence", at<&Obstacle::sequence>, "", any(), "mesh: where its vertices are from frame to frame: OBJ or PLY files of the same triangles by a pattern, \"walk/*.obj\", in the order of their names, or a point cache, .pc2 or .mdd; none: it is rigid", {.file = NamesFile::pattern}},
+    {"fps", at<&Obstacle::fps>, "1/s", at_least(0), "mesh: frames of the sequence a second, the first one at t = 0; 0: as the times of an .mdd say"},
+    {"friction", at<&Obstacle::friction>, "", at_least(-1), "Coulomb coefficient; negative: the fabric's"},
+    {"body", at<&Obstacle::body>, "", any(), "name that obstacles share which act as one, their union: a limb of two capsules; none: each by itself"},
+    {"visible", at<&Obstacle::visible>, "", any(), "drawn in pictures"},
+    {"from", at<&Obstacle::from>, "s", at_least(0), "appears at this time"},
+    {"until", at<&Obstacle::until>, "s", at_least(0), "removed at this time; 1e30: never"},
+    {"motion-axis", at<&Obstacle::motion, &Motion::axis>, "", any(), "of the motion's rotation"},
+    {"motion-center", at<&Obstacle::motion, &Motion::center>, "m", any(), "of the motion's rotation"},
 };
 
 const KeyRow<SceneEvent> kCommandRows[] = {
-    {"kind", at<&SceneEvent::kind>, "", any(), "", "iron: removes all bends and permanent set; edit: the present shape becomes the rest shape (law grinspun-edit)"},
-    {"time", at<&SceneEvent::time>, "s", at_least(0), "", "when"},
-    {"low", at<&SceneEvent::low>, "m", any(), "", "corner of the box that contains the elements, on the flat cloth"},
-    {"high", at<&SceneEvent::high>, "m", any(), "", "opposite corner of the box, >= low"},
+    {"kind", at<&SceneEvent::kind>, "", any(), "iron: removes all bends and permanent set; edit: the present shape becomes the rest shape (law grinspun-edit)"},
+    {"time", at<&SceneEvent::time>, "s", at_least(0), "when"},
+    {"low", at<&SceneEvent::low>, "m", any(), "corner of the box that contains the elements, on the flat cloth"},
+    {"high", at<&SceneEvent::high>, "m", any(), "opposite corner of the box, >= low"},
 };
 
 const KeyRow<Phase> kPhaseRows[] = {
-    {"name", at<&Phase::name>, "", any(), "", "for captions, and for times: \"hang\", \"hang + 0.2\""},
-    {"seconds", at<&Phase::seconds>, "s", positive(), "", "how long it lasts"},
-    {"repeat", at<&Phase::repeat>, "", any(), "", "gone through as often as cycles says, with the others that repeat; they follow one another"},
+    {"name", at<&Phase::name>, "", any(), "for captions, and for times: \"hang\", \"hang + 0.2\""},
+    {"seconds", at<&Phase::seconds>, "s", positive(), "how long it lasts"},
+    {"repeat", at<&Phase::repeat>, "", any(), "gone through as often as cycles says, with the others that repeat; they follow one another"},
 };
 
 const KeyRow<Keyframe> kKeyframeRows[] = {
-    {"time", at<&Keyframe::time>, "s", at_least(0), "", "ascending from one keyframe to the next"},
-    {"position", at<&Keyframe::position>, "m", any(), "", "displacement from the start"},
-    {"angle", at<&Keyframe::angle>, "degree", any(), "", "rotation about the motion's axis and centre"},
-    {"scale", at<&Keyframe::scale>, "", positive(), "", "of an obstacle: size over that at the start, about the motion's centre"},
+    {"time", at<&Keyframe::time>, "s", at_least(0), "ascending from one keyframe to the next"},
+    {"position", at<&Keyframe::position>, "m", any(), "displacement from the start"},
+    {"angle", at<&Keyframe::angle>, "degree", any(), "rotation about the motion's axis and centre"},
+    {"scale", at<&Keyframe::scale>, "", positive(), "of an obstacle: size over that at the start, about the motion's centre"},
 };
 // clang-format on
 
@@ -188,7 +205,7 @@ Json published_json(const Fabric& fabric) {
                  {"unit", number.unit},
                  {"source", number.provenance.source},
                  {"confidence", number.provenance.confidence}};
-    if (!number.tester.empty()) all[name]["tester"] = number.tester;
+    if (number.tester) all[name]["tester"] = enum_name(*number.tester);
   }
   return all;
 }
@@ -320,6 +337,18 @@ Keys bind_scene(Scene& scene) {
   }
   return keys;
 }
+std::string key_of_flag(const std::string& flag) {
+  for (const KeyRow<Scene>& row : kSceneRows)
+    if (flag == row.traits.flag) return row.path;
+  return flag;
+}
+
+std::string flag_of_key(const std::string& path) {
+  for (const KeyRow<Scene>& row : kSceneRows)
+    if (*row.traits.flag && path == row.path) return row.traits.flag;
+  return path;
+}
+
 Keys bind_pin(Pin& pin) { return bind(kPinRows, pin); }
 Keys bind_obstacle(Obstacle& obstacle) { return bind(kObstacleRows, obstacle); }
 Keys bind_command(SceneEvent& command) { return bind(kCommandRows, command); }
@@ -349,7 +378,7 @@ void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::s
 
 void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin) {
   const Keys keys = bind_scene(scene);
-  const BoundKey& key = find_key(keys, path == "fabric" ? "fabric.name" : path, origin);
+  const BoundKey& key = find_key(keys, key_of_flag(path), origin);
   set_key(scene, key, parse_text(key.description, text), origin);
 }
 

@@ -22,6 +22,12 @@ Keys bind_command(SceneEvent& command);
 Keys bind_phase(Phase& phase);
 Keys bind_keyframe(Keyframe& keyframe);
 
+// A key may have a second name, by which flags, studies and tables call it: --fabric sets fabric.name, and
+// files take both.  key_of_flag("fabric") is "fabric.name", flag_of_key("fabric.name") is "fabric"; they
+// return every other name as it is.
+std::string key_of_flag(const std::string& flag);
+std::string flag_of_key(const std::string& path);
+
 // Sets one key from a flag's text and remembers `origin` ("--step").  "fabric" and "fabric.name" load a whole
 // fabric (all its earlier values are replaced); another fabric.* key replaces one number, whose provenance
 // becomes `origin`, "given".  Throws Error::invalid_input as assign_text and find_key do.

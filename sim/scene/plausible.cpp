@@ -81,7 +81,7 @@ std::string size_warning(const Scene& scene, const ClothMesh& mesh) {
   if (file.empty()) return "the cloth " + what + ": lengths are in metres";
   const LengthUnit unit = scene.cloth.unit;
   // The rest shape of a pattern is in units of its texture, which cloth.unit does not change.
-  const bool is_pattern = scene.cloth.shape == "pattern" && !names_an_obj(scene.mesh);
+  const bool is_pattern = scene.cloth.shape == ClothOutline::pattern && !names_an_obj(scene.mesh);
   const std::string fitting = is_pattern ? "" : fitting_units(size, unit);
   return "mesh " + file + ", read in " +
          (is_pattern ? "units of cloth.texture-scale" : enum_name(unit) + "s") + ", " + what +

@@ -49,7 +49,9 @@ void read_published(const Json& entries, const std::string& file, Fabric& fabric
       throw malformed(path, "must have a value and its unit", file);
     fabric.published[name] = {
         entry["value"].get<double>(), string_at(entry["unit"], path + ".unit", file), from,
-        entry.contains("tester") ? string_at(entry["tester"], path + ".tester", file) : ""};
+        entry.contains("tester")
+            ? value_if_named<DrapeStandard>(string_at(entry["tester"], path + ".tester", file))
+            : std::nullopt};
   }
 }
 

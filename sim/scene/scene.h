@@ -55,6 +55,13 @@ constexpr std::array<const char*, 2> names(MembraneElement) { return {"constant"
 enum class DeviceChoice { automatic, cpu, cuda };
 constexpr std::array<const char*, 3> names(DeviceChoice) { return {"auto", "cpu", "cuda"}; }
 
+// A device that is named, for what chooses none by itself.
+enum class NamedDevice { cpu, cuda };
+constexpr std::array<const char*, 2> names(NamedDevice) { return {"cpu", "cuda"}; }
+constexpr DeviceChoice device_choice(NamedDevice device) {
+  return device == NamedDevice::cpu ? DeviceChoice::cpu : DeviceChoice::cuda;
+}
+
 // fp64 is double, fp32 float.
 enum class Precision { fp64, fp32 };
 constexpr std::array<const char*, 2> names(Precision) { return {"double", "float"}; }
@@ -67,12 +74,16 @@ struct Provenance {
   std::optional<double> standard_error = {};  // in the number's unit; none: not known
 };
 
+// The standard of a drape test, which names its apparatus: ISO 9073-9 or JIS L 1096.
+enum class DrapeStandard { iso9073, jis };
+constexpr std::array<const char*, 2> names(DrapeStandard) { return {"iso9073", "jis"}; }
+
 // A measured number that is no parameter of the model: the source prints it, or results are compared with it.
 struct PublishedNumber {
   double value = 0;  // in `unit`
   std::string unit;
   Provenance provenance;
-  std::string tester = "";  // a drape's standard, which names its apparatus (`drape.standard`); "": not known
+  std::optional<DrapeStandard> tester = {};  // of a drape (`drape.standard`); none: not known
 };
 
 // Friction elements in the plane beside the membrane's stiffness: springs [N/m] that slip at strains [-],
@@ -132,8 +143,15 @@ struct Fabric {
   double widening_of_twist() const;  // the value of Faces::wider
 };
 
+// The outline of a cloth: of a built mesh, or of an OBJ, whose vertices (file) or texture coordinates
+// (pattern) are the rest shape.
+enum class ClothOutline { square, strip, disc, tube, file, pattern };
+constexpr std::array<const char*, 6> names(ClothOutline) {
+  return {"square", "strip", "disc", "tube", "file", "pattern"};
+}
+
 struct ClothShape {
-  std::string shape = "square";
+  ClothOutline shape = ClothOutline::square;
   double length = 0.5;   // [m], along warp
   double width = 0.5;    // [m], along weft
   double radius = 0.15;  // [m], of the disc, tube, knot's loops or pleats' turns
@@ -151,6 +169,12 @@ struct ClothShape {
   Eigen::Vector3d copy_offset{0, 0, 0.01};  // [m], from one copy to the next
   double copy_turn = 0;                     // [degree], largest random turn of a copy
   double copy_scatter = 0;                  // [m], largest random offset of a copy
+
+  bool is_rectangle() const { return shape == ClothOutline::square || shape == ClothOutline::strip; }
+  double side_along_weft() const {
+    return shape == ClothOutline::square ? length : width;
+  }  // of a rectangle [m]
+  bool is_of_file() const { return shape == ClothOutline::file || shape == ClothOutline::pattern; }
 };
 
 // An instant of a prescribed motion; positions and angles are interpolated smoothly between keys (with
@@ -170,11 +194,16 @@ struct Motion {
   Eigen::Vector3d center{0, 0, 0};  // [m]
 };
 
+// Which vertices of the rest shape a pin holds: those in its box, the one nearest to its point, or those of
+// boundary edges.
+enum class PinSelection { box, nearest, all_boundary };
+constexpr std::array<const char*, 3> names(PinSelection) { return {"box", "nearest", "all-boundary"}; }
+
 // Pinned vertices, chosen on the flat cloth as its builder or its file places it.  A pin that takes hold
 // later takes its vertices where they are then and moves them from there.  Where pins share a vertex the last
 // one holds it.
 struct Pin {
-  std::string select = "box";
+  PinSelection select = PinSelection::box;
   Eigen::Vector3d low{0, 0, 0};    // [m], corner of the box
   Eigen::Vector3d high{0, 0, 0};   // [m], opposite corner
   Eigen::Vector3d point{0, 0, 0};  // [m], for select = "nearest"

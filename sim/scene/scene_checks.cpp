@@ -146,13 +146,13 @@ void check_fabric(const Scene& scene) {
 }
 
 void check_mesh(const Scene& scene) {
-  const std::string& shape = scene.cloth.shape;
-  const bool given = shape == "file" && names_an_obj(scene.mesh);
-  if ((shape == "file" || shape == "pattern") && scene.cloth.file.empty() && !given) {
-    throw Error::invalid_input(shown(scene, "cloth.shape", shape, "") + " needs cloth.file, an OBJ");
+  const ClothShape& cloth = scene.cloth;
+  const bool given = cloth.shape == ClothOutline::file && names_an_obj(scene.mesh);
+  if (cloth.is_of_file() && cloth.file.empty() && !given) {
+    throw Error::invalid_input(shown(scene, "cloth.shape", enum_name(cloth.shape), "") +
+                               " needs cloth.file, an OBJ");
   }
-  const auto all = names(MeshFamily{});
-  const std::vector<std::string> families(all.begin(), all.end());
+  const std::vector<std::string> families = every_name<MeshFamily>();
   if (names_an_obj(scene.mesh) || std::count(families.begin(), families.end(), scene.mesh)) return;
   throw Error::invalid_input(shown(scene, "mesh", scene.mesh, "") + " must be " + join(families, " | ") +
                              " | FILE.obj" + suggestion(scene.mesh, families));
@@ -162,10 +162,10 @@ void check_mesh(const Scene& scene) {
 // silently be left unread.
 void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
-  const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
+  const bool of_file = cloth.is_of_file();
   if (!of_file && !cloth.file.empty() && !is_given(scene, "cloth.shape"))
     throw Error::invalid_input(shown(scene, "cloth.file", cloth.file, "") +
-                               " is not read by a cloth of shape " + cloth.shape +
+                               " is not read by a cloth of shape " + enum_name(cloth.shape) +
                                ": give cloth.shape = file, or pattern")
         .with_key("cloth.file", cloth.file);
   if (!of_file || cloth.file.empty() || !is_given(scene, "mesh")) return;
@@ -213,7 +213,7 @@ void check_times(const Scene& scene, double from, double until, const std::strin
 
 void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
   check_times(scene, pin.from, pin.until, path);
-  if (pin.select == "box" && (pin.low.array() > pin.high.array()).any())
+  if (pin.select == PinSelection::box && (pin.low.array() > pin.high.array()).any())
     throw key_refusal(scene, path, path + ".low must be <= " + path + ".high in x, y and z [m]");
   if (pin.strength > 0 && !scene.is_implicit())
     throw Error::invalid_input(

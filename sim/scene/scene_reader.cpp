@@ -31,7 +31,7 @@ void flatten(const std::string& prefix, const ValueTree& table, const std::vecto
     if (child.kind == ValueTree::Kind::table && !std::count(lists.begin(), lists.end(), path)) {
       flatten(path, child, lists, settings);
     } else {
-      settings.push_back({path == "fabric" ? "fabric.name" : path, &child});
+      settings.push_back({key_of_flag(path), &child});
     }
   }
 }
@@ -62,12 +62,11 @@ class SceneKeys {
   }
 
   void apply(std::vector<Flag> flags) {
-    std::stable_partition(flags.begin(), flags.end(), [](const Flag& flag) {
-      return flag.path == "fabric" || flag.path == "fabric.name";
-    });
+    std::stable_partition(flags.begin(), flags.end(),
+                          [](const Flag& flag) { return key_of_flag(flag.path) == "fabric.name"; });
     for (const Flag& flag : flags) {
       const std::string origin = "--" + flag.path;
-      const BoundKey& key = find_key(known_, flag.path == "fabric" ? "fabric.name" : flag.path, origin);
+      const BoundKey& key = find_key(known_, key_of_flag(flag.path), origin);
       set(key, parse_text(key.description, flag.text), origin);
       if (flag.path == "param") scene_.origin["param." + flag.text.substr(0, flag.text.find('='))] = origin;
     }
@@ -103,7 +102,7 @@ class SceneKeys {
   void set(const BoundKey& key, const Value& value, const std::string& origin) {
     const std::string& path = key.description.path;
     if (recorded_ || is_extra(path)) return assign(key, value, origin);
-    set_key(scene_, key, located(path, value), origin);
+    set_key(scene_, key, located(key.description, value), origin);
   }
 
   // Reads the phases; the scene lasts as long as they do, unless it says otherwise.
@@ -125,17 +124,13 @@ class SceneKeys {
   }
 
   // Resolves the path of a file that may stand beside the scene file.
-  Value located(const std::string& path, const Value& value) const {
-    const bool of_obstacle = path.starts_with("obstacle["), is_sequence = path.ends_with(".sequence");
-    if (of_obstacle
-            ? !is_sequence && !path.ends_with(".file")
-            : path != "cloth.file" && path != "cloth.start" && path != "mesh" && path != "fabric.name")
-      return value;
+  Value located(const KeyDescription& key, const Value& value) const {
+    if (key.traits.file == NamesFile::no) return value;
     const auto* name = std::get_if<std::string>(&value);
     const fs::path beside = name && !name->empty() ? fs::path(file_).parent_path() / *name : fs::path();
     if (beside.empty()) return value;
     std::error_code ignored;
-    if (is_sequence)  // a pattern
+    if (key.traits.file == NamesFile::pattern)
       return files_like(*name).empty() && !files_like(beside.string()).empty() ? Value(beside.string())
                                                                                : value;
     if (!fs::exists(*name, ignored) && fs::is_regular_file(beside, ignored)) return beside.string();
@@ -183,7 +178,7 @@ class SceneKeys {
       const BoundKey& key = find_key(keys, path + "." + child.key, origin);
       if (child.kind != ValueTree::Kind::value)
         throw Error::invalid_input(path + "." + child.key + " must be one value (" + origin + ")");
-      const Value value = recorded_ ? child.value : located(path + "." + child.key, child.value);
+      const Value value = recorded_ ? child.value : located(key.description, child.value);
       assign(key, timed(key, value, origin), origin);
       scene_.origin[path + "." + child.key] = origin;
     }

@@ -84,10 +84,7 @@ class TomlWriter {
     }
   }
 
-  bool has_triangles_of_cloth_file() const {
-    const ClothShape& cloth = scene_.cloth;
-    return (cloth.shape == "file" || cloth.shape == "pattern") && !cloth.file.empty();
-  }
+  bool has_triangles_of_cloth_file() const { return scene_.cloth.is_of_file() && !scene_.cloth.file.empty(); }
 
   void parameters() {
     for (const auto& [name, value] : scene_.param)

@@ -160,16 +160,16 @@ void check_start_shape(const Scene& scene) {
     throw Error::invalid_input(shown(scene, "triangles", std::to_string(scene.triangles), "") +
                                " must be at least 2 for each of " +
                                shown(scene, "cloth.copies", std::to_string(c.copies), ""));
-  if (c.copies > 1 && (names_an_obj(c.start) || c.shape == "pattern"))
+  if (c.copies > 1 && (names_an_obj(c.start) || c.shape == ClothOutline::pattern))
     throw Error::invalid_input(shown(scene, "cloth.copies", std::to_string(c.copies), "") +
                                " must be 1 where a file says where the cloth starts");
   if (c.start == "rest" || names_an_obj(c.start)) return;
   check_start_name(scene);
   const bool knot = c.start == "knot", of_file = names_an_obj(scene.mesh);
-  if (of_file || !(c.shape == "strip" || (!knot && c.shape == "square")))
+  if (of_file || !(c.shape == ClothOutline::strip || (!knot && c.shape == ClothOutline::square)))
     throw Error::invalid_input(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
                                (knot ? "" : " or square") + ", not " +
-                               (of_file ? "the mesh " + scene.mesh : c.shape));
+                               (of_file ? "the mesh " + scene.mesh : enum_name(c.shape)));
   if (knot)
     check_knot(scene);
   else
@@ -179,7 +179,7 @@ void check_start_shape(const Scene& scene) {
 std::vector<Vector3d> start_shape(const Scene& scene, const ClothMesh& mesh) {
   const ClothShape& c = scene.cloth;
   if (names_an_obj(c.start)) return read_start(c.start, c.weld, mesh, c.unit);
-  if (c.shape == "pattern") return read_start(c.file, c.weld, mesh, c.unit);
+  if (c.shape == ClothOutline::pattern) return read_start(c.file, c.weld, mesh, c.unit);
   std::vector<Vector3d> x = mesh.rest;
   const auto each_with = [&](const auto& place) {
     const std::size_t each = x.size() / c.copies;

@@ -27,7 +27,7 @@ struct Command {
 CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
   const std::string name = option_name(key);
   if (key.type == "flag") return app.add_flag(name);
-  CLI::Option* option = app.add_option(key.path == "fabric.name" ? name + ",--" + key.path : name);
+  CLI::Option* option = app.add_option(*key.traits.flag ? name + ",--" + key.path : name);
   option->expected(1)->type_name(key.type);
   if (key.type == "name=value") return option->take_all()->allow_extra_args(false);
   return option->take_last();
@@ -194,9 +194,7 @@ std::vector<KeyDescription> experiment_options(const Experiment& experiment, Def
   return keys;
 }
 
-std::string option_name(const KeyDescription& key) {
-  return key.path == "fabric.name" ? "--fabric" : "--" + key.path;
-}
+std::string option_name(const KeyDescription& key) { return "--" + key.flag(); }
 
 std::string shell_text(const std::vector<std::string>& words) {
   std::string text;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/fixed_keys.h"
@@ -106,11 +105,7 @@ void limit_memory(double megabytes) {
 
 // Returns the resolved options without those that change no file of a run, or whose outcome is in the scene.
 std::shared_ptr<const nlohmann::ordered_json> resolved_options(Keys keys) {
-  static const std::set<std::string> kOthers = {"scene",        "camera",      "out",          "quick",
-                                                "explain",      "quiet",       "json",         "errors",
-                                                "errors.draws", "errors.jobs", "errors.batch", "checkpoint",
-                                                "resume",       "dump-scene",  "max-memory"};
-  std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
+  std::erase_if(keys, [](const BoundKey& key) { return !key.description.traits.is_recorded(); });
   return std::make_shared<const nlohmann::ordered_json>(to_json(keys));
 }
 
@@ -166,6 +161,22 @@ std::vector<KeyDescription> descriptions(const Keys& keys) {
   return result;
 }
 
+const std::vector<KeyDescription>& simulation_keys() {
+  static const std::vector<KeyDescription> kAll = [] {
+    Options options;
+    std::vector<KeyDescription> all = descriptions(bind_options(options));
+    for (KeyDescription& key : scene_keys()) all.push_back(std::move(key));
+    return all;
+  }();
+  return kAll;
+}
+
+const KeyTraits& simulation_traits(const std::string& flag) {
+  static const KeyTraits kOwn;
+  const auto key = std::ranges::find(simulation_keys(), key_of_flag(flag), &KeyDescription::path);
+  return key == simulation_keys().end() ? kOwn : key->traits;
+}
+
 std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every) {
   if (text == "all") return every;
   const std::vector<std::string> names = split(text);
@@ -190,7 +201,7 @@ void assign_text(const Keys& keys, const std::string& path, const std::string& t
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {
   const auto apply = [&] {
     for (const Flag& flag : line.flags)
-      if (flag.path != "fabric" && !flag.path.starts_with("fabric."))
+      if (!key_of_flag(flag.path).starts_with("fabric."))
         assign_text(keys, flag.path, flag.text, "--" + flag.path);
   };
   apply();
@@ -202,14 +213,8 @@ void set_keys(const CommandLine& line, const Keys& keys, const std::function<voi
 }
 
 std::vector<KeyDescription> fabric_keys() {
-  static const std::vector<std::string> kNames = {
-      "fabric.name",         "fabric.b1",           "fabric.b2",           "fabric.k0",
-      "fabric.kes-b",        "fabric.kes-2hb",      "fabric.stops-median", "fabric.stops-spread",
-      "fabric.back-bending", "fabric.back-friction"};
   std::vector<KeyDescription> keys = scene_keys();
-  std::erase_if(keys, [](const KeyDescription& key) {
-    return !std::count(kNames.begin(), kNames.end(), key.path) && !key.path.starts_with("fabric.bending.");
-  });
+  std::erase_if(keys, [](const KeyDescription& key) { return key.traits.takers != Takers::laws; });
   return keys;
 }
 

@@ -114,6 +114,11 @@ Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});
 
 std::vector<KeyDescription> descriptions(const Keys& keys);
+// Returns the keys that all simulations take, of runs (Options) and of scenes.
+const std::vector<KeyDescription>& simulation_keys();
+// Returns the traits of that one of them, which a flag may call by its second name; those of an experiment's
+// own key for any other.
+const KeyTraits& simulation_traits(const std::string& flag);
 // True if one of the keys has that path.
 template <class Key>
 bool has_key(const std::vector<Key>& keys, const std::string& path) {
@@ -152,8 +157,8 @@ void assign_text(const Keys& keys, const std::string& path, const std::string& t
 // one of the keys, to the struct that they are bound to.  Keys of a fabric are left to resolved_fabric().
 // Throws Error::invalid_input.
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick = {});
-// Returns --fabric, --fabric.b1, --fabric.b2, --fabric.k0, --fabric.kes-*, --fabric.stops-*,
-// --fabric.bending.*.
+// Returns the keys of a fabric that tests of its bending without cloth take: --fabric, --fabric.b2,
+// --fabric.bending.* ...
 std::vector<KeyDescription> fabric_keys();
 // Returns the fabric of that name or file with the flags fabric.* overriding its numbers, checked like a
 // scene's.  Throws Error::invalid_input, Error::system.

@@ -25,7 +25,7 @@ std::string fixed_key_message(const std::string& experiment, const FixedKey& key
 void throw_if_flags(const CommandLine& line, const std::vector<FixedKey>& fixed_keys) {
   for (const Flag& flag : line.flags)
     for (const FixedKey& key : fixed_keys)
-      if ((flag.path == "fabric" ? "fabric.name" : flag.path) == key.path)
+      if (key_of_flag(flag.path) == key.path)
         throw Error::invalid_input("--" + flag.path + (flag.text == "true" ? "" : " " + flag.text) + ": " +
                                    fixed_key_message(line.experiment, key))
             .with_key(key.path, flag.text);

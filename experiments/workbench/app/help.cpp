@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <set>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -20,43 +20,12 @@ namespace {
 
 constexpr int kUsualWidth = 100, kMinWidth = 40, kWidestName = 28;
 
-struct Group {
-  const char* name;
-  const char* about;
-  std::vector<std::string> beginnings;  // prefixes of its keys
-};
-// Returns the groups in the order of --help.  The first takes the keys of scenes that no other does, the last
-// the options of runs.
-const std::vector<Group>& groups() {
-  static const std::vector<Group> all = {
-      {"scene", "cloth, its mesh and start, gravity, contact, the scene's file", {"scene", "dump-scene"}},
-      {"fabric",
-       "the fabric's numbers, the law of bending and its parameters",
-       {"fabric.", "law", "param", "element", "force"}},
-      {"solver",
-       "integrator, steps, tolerances, precision",
-       {"integrator", "step", "substeps", "implicit-every", "solver-", "newton-", "tolerance", "ramp",
-        "unload", "linear-", "precision"}},
-      {"pictures",
-       "pictures, camera, meshes and probes that are written",
-       {"size", "fps", "quality", "renderer", "no-images", "look", "curvature-range", "reference", "plain",
-        "light", "background", "camera.", "export", "probe"}},
-      {"running", "folder, device, threads, errors, checkpoints, what is printed", {"device", "threads"}}};
-  return all;
-}
-
-// True if the path begins with the prefix; "step" is no prefix of "steps-of-something".
-bool begins(const std::string& path, const std::string& beginning) {
-  const bool open = beginning.ends_with('.') || beginning.ends_with('-');
-  return open ? path.starts_with(beginning) : path == beginning;
-}
-
-std::string option_group_name(const KeyDescription& key, const std::set<std::string>& of_scenes) {
-  for (const Group& group : groups())
-    for (const std::string& beginning : group.beginnings)
-      if (begins(key.path, beginning)) return group.name;
-  return of_scenes.contains(key.path) ? "scene" : "running";
-}
+// Describes the groups of KeyGroup but its own, in their order.
+constexpr const char* kAbout[] = {"cloth, its mesh and start, gravity, contact, the scene's file",
+                                  "the fabric's numbers, the law of bending and its parameters",
+                                  "integrator, steps, tolerances, precision",
+                                  "pictures, camera, meshes and probes that are written",
+                                  "folder, device, threads, errors, checkpoints, what is printed"};
 
 // Returns the other experiment that owns an option, "drape" for "drape.disc", as a comparison has options of
 // the one it compares.
@@ -222,18 +191,17 @@ std::string program_help(const std::vector<Experiment>& known, int width) {
 }  // namespace
 
 std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys) {
-  std::set<std::string> of_scenes;
-  for (const KeyDescription& key : scene_keys()) of_scenes.insert(key.path);
   const std::vector<KeyDescription> own = experiment.own_keys(), fabric = fabric_keys();
   // True for a test of fabrics, which simulates no cloth.
   const bool takes_fabrics = std::all_of(fabric.begin(), fabric.end(),
                                          [&](const KeyDescription& key) { return has_key(own, key.path); });
   std::vector<OptionGroup> all = {{experiment.name, "", {}}};
-  for (const Group& group : groups()) all.push_back({group.name, group.about, {}});
+  for (std::size_t i = 0; i < std::size(kAbout); ++i)
+    all.push_back({enum_name(static_cast<KeyGroup>(i + 1)), kAbout[i], {}});
   for (KeyDescription& key : keys) {
     const bool of_fabric = takes_fabrics && has_key(fabric, key.path);
     const bool is_own = !of_fabric && (!experiment.simulates || has_key(own, key.path));
-    std::string name = is_own ? experiment.name : option_group_name(key, of_scenes);
+    std::string name = is_own ? experiment.name : enum_name(key.traits.group);
     if (const std::string other = is_own && experiment.simulates ? other_owner(key, name) : "";
         !other.empty())
       name = other;

@@ -13,49 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kBuiltMesh = "a cloth whose mesh is built, not read from a file";
-constexpr const char* kNewton = "--integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact";
-
-// The conditions of every simulation.
-const KeyCondition kSceneConditions[] = {
-    {"triangles", "cloth.shape != file | pattern and mesh != *.obj", kBuiltMesh},
-    {"seed",
-     "mesh = random and cloth.shape != file | pattern or cloth.copy-turn > 0 or cloth.copy-scatter > 0",
-     "--mesh random, --cloth.copy-turn or --cloth.copy-scatter"},
-    {"cloth.length", "cloth.shape = square | strip | tube and mesh != *.obj",
-     "--cloth.shape square, strip or tube"},
-    {"cloth.width", "cloth.shape = strip and mesh != *.obj", "--cloth.shape strip"},
-    {"cloth.radius", "cloth.shape = disc | tube and mesh != *.obj or cloth.start = knot | pleats",
-     "--cloth.shape disc or tube, or --cloth.start knot or pleats"},
-    {"cloth.file", "cloth.shape = file | pattern", ""},
-    {"cloth.weld", "cloth.shape = file | pattern or mesh = *.obj or cloth.start = *.obj",
-     "a cloth that is read from an OBJ"},
-    {"cloth.texture-scale", "cloth.shape = pattern and mesh != *.obj", "--cloth.shape pattern"},
-    {"cloth.pleats", "cloth.start = pleats", ""},
-    {"cloth.copy-offset", "cloth.copies > 1", ""},
-    {"cloth.copy-turn | cloth.copy-scatter", "cloth.start != *.obj and cloth.shape != pattern",
-     "a cloth whose start no file says"},
-    {"substeps", "integrator = semi-implicit | explicit", ""},
-    {"implicit-every | solver-tolerance", "integrator = semi-implicit", ""},
-    {"newton-residual | newton-velocity | linear-solver",
-     "integrator = implicit | bdf2 | tr-bdf2 | quasi-static or self-contact", kNewton},
-    {"newton-iterations",
-     "integrator = implicit | bdf2 | tr-bdf2 or integrator = semi-implicit and self-contact",
-     "--integrator implicit, bdf2 or tr-bdf2, or semi-implicit with --self-contact"},
-    {"linear-precision",
-     "precision = double and integrator = implicit | bdf2 | tr-bdf2 | quasi-static or precision = double and "
-     "self-contact",
-     "--precision double and --integrator implicit, bdf2, tr-bdf2 or quasi-static, or --self-contact"},
-    {"ramp | unload", "integrator = quasi-static", ""},
-};
-// The conditions of what a run does besides simulating.  Options for the look of pictures have none: the
-// manifest keeps them, and scripts draw pictures or leave them out by one flag.  The renderer has one.
-const KeyCondition kRunConditions[] = {
-    {"errors.draws | errors.jobs | errors.batch", "errors", ""},
-    {"reference", "look = difference", ""},
-    {"renderer", "not no-images", ""},
-};
-
 std::vector<std::string> parts(const std::string& text, const std::string& separator) {
   std::vector<std::string> all;
   std::size_t begin = 0;
@@ -215,9 +172,10 @@ std::vector<KeyCondition> key_conditions(const Experiment& experiment) {
   std::vector<KeyCondition> all = experiment.conditions;
   if (!experiment.simulates) return all;
   const std::vector<FixedKey> fixed = experiment.fixed_keys();
-  for (const KeyCondition& condition : kSceneConditions)
-    if (!depends_on_fixed_key(condition, fixed)) all.push_back(condition);
-  all.insert(all.end(), std::begin(kRunConditions), std::end(kRunConditions));
+  for (const KeyDescription& key : simulation_keys()) {
+    const KeyCondition condition{key.path.c_str(), key.traits.needs, key.traits.needs_text};
+    if (*condition.needs && !depends_on_fixed_key(condition, fixed)) all.push_back(condition);
+  }
   return all;
 }
 

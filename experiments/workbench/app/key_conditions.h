@@ -1,5 +1,7 @@
 // Checks in one place which keys a request reads: every subcommand declares the conditions of its own keys
-// (Experiment::conditions), and those of scenes and runs are in key_conditions.cpp.
+// (Experiment::conditions), and the rows of scenes' and runs' keys state theirs (KeyTraits::needs).  Options
+// for the look of pictures have none: the manifest keeps them, and scripts draw pictures or leave them out by
+// one flag.  The renderer has one.
 //
 // A condition is written in terms of other keys: "crease.fold = rod | pleat", "integrator != explicit",
 // "cloth.copies > 1", "mesh = *.obj" (texts with that end), "fab" (the key is given, or on) and "not fab".

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,31 @@
 
 namespace hysteron::experiments {
 
+enum class PictureQuality { draft, final, figure };
+constexpr std::array<const char*, 3> names(PictureQuality) { return {"draft", "final", "figure"}; }
+
+enum class Lighting { studio, raking };
+constexpr std::array<const char*, 2> names(Lighting) { return {"studio", "raking"}; }
+
+// The format of exported meshes (experiments/workbench/session/mesh_export.h, animation_export.h).
+enum class MeshFormat { none, ply, obj, vtk, pc2, usd, glb, mitsuba };
+constexpr std::array<const char*, 8> names(MeshFormat) {
+  return {"none", "ply", "obj", "vtk", "pc2", "usd", "glb", "mitsuba"};
+}
+
 struct Options {
   std::string scene;              // scene      NAME|FILE.toml, "" = the experiment's own
   std::string out;                // out        folder of the results, "" = out/<experiment>
   std::string size = "1280x720";  // size       width and height of pictures, WIDTHxHEIGHT pixels
   double fps = 30;                // fps        pictures per simulated second
-  std::string quality = "final";  // quality    draft | final | figure
+  PictureQuality quality = PictureQuality::final;           // quality    draft | final | figure
   render::Renderer renderer = render::Renderer::automatic;  // renderer   auto | egl | osmesa
   bool no_images = false;                                   // no-images  no pictures are drawn
-  std::string look = "cloth";    // look       what the pictures show; several separated by commas
-  double curvature_range = 0;    // curvature-range  curvature at the ends of its colours [1/m]; 0: 2 k0
-  std::string reference;         // reference  folder of the run that look `difference` subtracts
-  bool plain = false;            // plain      pictures of the sequence have no text
-  std::string light = "studio";  // light      studio | raking
+  std::string look = "cloth";         // look       what the pictures show; several separated by commas
+  double curvature_range = 0;         // curvature-range  curvature at the ends of its colours [1/m]; 0: 2 k0
+  std::string reference;              // reference  folder of the run that look `difference` subtracts
+  bool plain = false;                 // plain      pictures of the sequence have no text
+  Lighting light = Lighting::studio;  // light      studio | raking
   render::Background background = render::Background::studio;  // background studio | white | transparent
   std::string camera;  // camera     a run's camera.json, before the keys camera.*
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
@@ -32,9 +45,8 @@ struct Options {
   Numbers camera_target;       // camera.target     point in the picture's middle [m]; empty: found
   double camera_distance = 0;  // camera.distance   from the target to the eye [m]; 0: found
   Numbers camera_box;          // camera.box        framed box [m], low then high; empty: found
-  std::string export_format =
-      "none";         // export     none | ply | obj | vtk | pc2 | usd | glb | mitsuba: meshes in out/mesh
-  std::string probe;  // probe      points "x,y[;x,y...]" [m] on the flat cloth: out/probes.csv
+  MeshFormat export_format = MeshFormat::none;  // export     meshes in out/mesh
+  std::string probe;                 // probe      points "x,y[;x,y...]" [m] on the flat cloth: out/probes.csv
   bool check_intersections = false;  // check-intersections  counts them at every recorded instant
   bool errors = false;               // errors     measures errors of headlines by repeating the run
   int errors_draws = 2;              // errors.draws number of other meshes
@@ -56,7 +68,9 @@ struct Options {
 };
 
 Keys bind_options(Options& options);
-// Binds the options of experiments that simulate nothing: out, no-images, quick, quiet, json.
+// Binds the options that `takers`, which are tools or files, take beside their own.
+Keys bind_options_of(Takers takers, Options& options);
+// Binds those of tools: out, no-images, quick, quiet, json.
 Keys bind_output_options(Options& options);
 Keys with_output_options(Keys own, Options& options);
 

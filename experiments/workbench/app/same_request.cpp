@@ -79,7 +79,9 @@ bool has_bytes(const std::vector<InputRecord>& inputs, const std::string& hash) 
 
 Json comparable(Json scene) {
   if (!scene.is_object()) return Json::object();
-  for (const char* key : {"threads", "origin"}) scene.erase(key);
+  for (const KeyDescription& key : scene_keys())
+    if (key.traits.is_of_page()) scene.erase(key.path);
+  scene.erase("origin");
   if (scene.contains("fabric") && scene["fabric"].is_object()) scene["fabric"].erase("provenance");
   return scene;
 }

@@ -10,6 +10,7 @@
 #include "experiments/workbench/pages/error_notes.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
@@ -19,20 +20,23 @@ constexpr int kFiner = 4;  // factor of the triangles
 constexpr std::size_t kDrawsForAMean = 3;
 
 // Returns the other structured families; those for a tube close at its seam.
-std::vector<std::string> other_families(const Scene& scene) {
-  if (scene.mesh == "random") return {};
-  std::vector<std::string> families = {"unionjack", "equilateral"};
-  if (scene.cloth.shape == "tube") families = {"unionjack", "flipped"};
-  std::erase(families, scene.mesh);
+std::vector<MeshFamily> other_families(const Scene& scene) {
+  const auto own = value_if_named<MeshFamily>(scene.mesh);
+  if (own == MeshFamily::random) return {};
+  const bool is_tube = scene.cloth.shape == ClothOutline::tube;
+  std::vector<MeshFamily> families = {MeshFamily::unionjack,
+                                      is_tube ? MeshFamily::flipped : MeshFamily::equilateral};
+  std::erase_if(families, [&](MeshFamily family) { return own == family; });
   return families;
 }
 
 // Returns the changes of draw 1, 2 ...: other families first, then random meshes of other seeds.
 std::vector<Flag> resampled_mesh(const Scene& scene, int mesh_sample) {
-  const std::vector<std::string> families = other_families(scene);
+  const std::vector<MeshFamily> families = other_families(scene);
   const int random = mesh_sample - static_cast<int>(families.size());
-  if (random <= 0) return {{"mesh", families[static_cast<std::size_t>(mesh_sample) - 1]}};
-  return {{"mesh", "random"}, {"seed", std::to_string(scene.seed + static_cast<unsigned>(random))}};
+  if (random <= 0) return {{"mesh", enum_name(families[static_cast<std::size_t>(mesh_sample) - 1])}};
+  return {{"mesh", enum_name(MeshFamily::random)},
+          {"seed", std::to_string(scene.seed + static_cast<unsigned>(random))}};
 }
 
 // Returns the changes of draw 1, 2 ...: 3/2, 2/3, 2, 1/2 ... times the triangles.
@@ -52,14 +56,9 @@ Flag finer_mesh(const Scene& scene) {
 ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& error_run) {
   std::vector<Flag> own = error_run.changes;
   // These flags override the scene's file.
-  own.insert(own.end(), {{"errors", "false"},
-                         {"json", "false"},
-                         {"no-images", "true"},
-                         {"look", "cloth"},
-                         {"reference", ""},
-                         {"export", "none"},
-                         {"checkpoint", "0"},
-                         {"resume", "false"}});
+  own.push_back({"no-images", "true"});
+  for (const KeyDescription& key : simulation_keys())
+    if (!key.traits.repeats) own.push_back({key.flag(), key.type == "flag" ? "false" : key.default_text});
   CommandLine once = line;
   for (const Flag& change : error_run.changes)
     if (change.path == experiment_headlines(line.experiment).release)

@@ -50,12 +50,9 @@ std::vector<std::string> line_arguments(const CommandLine& line) {
   return words;
 }
 
-// Returns the flags that a page handles itself or adds to its columns' flags; they are no part of the
-// columns' requests.
-const std::set<std::string>& page_flags() {
-  static const std::set<std::string> kPageFlags = {"out", "json", "quiet", "resume", "threads"};
-  return kPageFlags;
-}
+// True for a flag that a page handles itself or adds to its columns' flags; it is no part of the columns'
+// requests.
+bool is_of_page(const std::string& flag) { return simulation_traits(flag).is_of_page(); }
 
 // Returns the request of a column that has ended, which its folder keeps with its outcome.
 Json requested(const ChildRun& column) {
@@ -76,7 +73,7 @@ std::vector<std::string> words_in(const Json& list) {
 std::vector<std::string> noted_text(const RunSpec& spec, const std::string& experiment) {
   CommandLine line{experiment, "", {}, spec.positionals};
   for (const auto& [path, text] : spec.flags)
-    if (!page_flags().contains(path)) line.flags.push_back({path, text});
+    if (!is_of_page(path)) line.flags.push_back({path, text});
   return line_arguments(line);
 }
 
@@ -326,7 +323,7 @@ Division divided(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
 ChildRun child_run(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
                    const fs::path& out) {
   ChildRun column{name, line, out / name};
-  std::erase_if(column.line.flags, [](const Flag& flag) { return page_flags().contains(flag.path); });
+  std::erase_if(column.line.flags, [](const Flag& flag) { return is_of_page(flag.path); });
   column.line.flags = override_flags(column.line.flags, own);
   return column;
 }

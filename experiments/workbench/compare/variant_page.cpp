@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 namespace {
 
 const KeyRow<SweepJobs> kRows[] = {
-    {"batch", at<&SweepJobs::batch>, "", between(1, kLargestBatch), "", kBatchDoc}};
+    {"batch", at<&SweepJobs::batch>, "", between(1, kLargestBatch), kBatchDoc}};
 
 // Removes the page's keys from the line and returns them.
 SweepJobs taken_from(CommandLine& line) {

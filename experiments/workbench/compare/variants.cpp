@@ -21,12 +21,11 @@ namespace {
 // Returns the key that the flag sets; for parameters a single one.
 std::string flag_key(const Flag& flag) {
   if (flag.path == "param") return "param." + flag.text.substr(0, flag.text.find('='));
-  return flag.path == "fabric.name" ? "fabric" : flag.path;
+  return flag_of_key(flag.path);
 }
 
 bool is_list(const Flag& flag) {
-  const std::string key = flag_key(flag);
-  return (key == "law" || key == "fabric" || key == "integrator") &&
+  return simulation_traits(flag.path).in_columns == InColumns::list &&
          (flag.text == "all" || flag.text.find_first_of(",+") != std::string::npos);
 }
 

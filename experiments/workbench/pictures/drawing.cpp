@@ -28,8 +28,8 @@ render::PictureSize picture_size(const Options& options) {
   constexpr int kDraftSamples = 4;   // samples drawn at once
   constexpr int kFigurePasses = 16;  // passes with 192 directions of light
   render::PictureSize size{options.width(), options.height()};
-  if (options.quality == "draft") size.samples = kDraftSamples;
-  if (options.quality == "figure") size.figure_passes = kFigurePasses;
+  if (options.quality == PictureQuality::draft) size.samples = kDraftSamples;
+  if (options.quality == PictureQuality::figure) size.figure_passes = kFigurePasses;
   return size;
 }
 
@@ -51,7 +51,7 @@ render::Camera framed_camera(const Options& options, const render::Box& bounds) 
 render::Look apply_lighting(render::Look look, const Options& options) {
   look.background = options.background;
   look.shown = std::min(1.0f, static_cast<float>(kShownWidth) / static_cast<float>(options.width()));
-  look.raking = options.light == "raking";
+  look.raking = options.light == Lighting::raking;
   if (look.raking) look.room = kRakingRoom;
   return look;
 }

@@ -21,12 +21,12 @@ struct FabricLook {
 };
 using L = FabricLook;
 const KeyRow<FabricLook> kRows[] = {
-    {"look.colour", at<&L::colour>, "", between(0, 255), "", "of the front, sRGB"},
-    {"look.back", at<&L::back>, "", between(0, 255), "", "of the back, sRGB"},
-    {"look.weave", at<&L::weave>, "", any(), "", "how the threads cross"},
-    {"look.threads", at<&L::threads>, "1/cm", between(1, 200), "", "of warp and weft, or wales and courses"},
-    {"look.sheen", at<&L::sheen>, "", between(0, 1), "", "of fibres that stand off"},
-    {"look.source", at<&L::source>, "", any(), "", "where this comes from"}};
+    {"look.colour", at<&L::colour>, "", between(0, 255), "of the front, sRGB"},
+    {"look.back", at<&L::back>, "", between(0, 255), "of the back, sRGB"},
+    {"look.weave", at<&L::weave>, "", any(), "how the threads cross"},
+    {"look.threads", at<&L::threads>, "1/cm", between(1, 200), "of warp and weft, or wales and courses"},
+    {"look.sheen", at<&L::sheen>, "", between(0, 1), "of fibres that stand off"},
+    {"look.source", at<&L::source>, "", any(), "where this comes from"}};
 
 FabricLook read_look(const ValueTree& table, const std::string& file) {
   const auto refuse = [&](const std::string& why) {

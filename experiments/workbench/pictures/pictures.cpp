@@ -99,7 +99,7 @@ Pictures::Pictures(const Setup& setup, std::unique_ptr<FrameSource> subject, con
 render::Camera Pictures::camera() const { return framed_camera(options_, bounds_); }
 
 // Waits because the studio's thread reads the options while it draws.
-void Pictures::set_light(const std::string& light) {
+void Pictures::set_light(Lighting light) {
   scene_renderer_.wait();
   options_.light = light;
 }

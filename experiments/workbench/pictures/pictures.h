@@ -69,7 +69,7 @@ class Pictures {
   void show_as(const Json& sheet);
   // Sets "studio" or "raking" light for the next pictures; single pictures are raked in the plane that the
   // cloth lies in most nearly.
-  void set_light(const std::string& light);
+  void set_light(Lighting light);
   // Returns the sequence's camera.
   render::Camera camera() const;
   // Draws the cloth's shadow from straight above; `metres_per_pixel` receives the picture's scale.

@@ -177,7 +177,7 @@ class SimulatedSubject : public FrameSource {
 std::vector<float> pattern_coordinates(const ClothMesh& mesh, const ClothShape& shape) {
   std::vector<float> uv;
   if (mesh.sewn) return uv;
-  if (shape.shape == "tube") {
+  if (shape.shape == ClothOutline::tube) {
     for (const Eigen::Vector2d& p : unrolled_tube(mesh, shape))
       uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
     return uv;

@@ -16,15 +16,17 @@ namespace {
 
 constexpr const char* kArchivedPositions = "mesh/cloth.pc2";
 
-std::string animation_file(const std::string& format) {
-  return format == "usd" ? "mesh/cloth.usda" : "mesh/cloth.glb";
+std::string animation_file(MeshFormat format) {
+  return format == MeshFormat::usd ? "mesh/cloth.usda" : "mesh/cloth.glb";
 }
 
 }  // namespace
 
-bool AnimationExport::writes(const std::string& format) { return format == "usd" || format == "glb"; }
+bool AnimationExport::writes(MeshFormat format) {
+  return format == MeshFormat::usd || format == MeshFormat::glb;
+}
 
-std::vector<std::string> AnimationExport::files(const std::string& format) {
+std::vector<std::string> AnimationExport::files(MeshFormat format) {
   return {kArchivedPositions, animation_file(format)};
 }
 
@@ -66,7 +68,7 @@ void AnimationExport::close() {
   if (times_.empty()) return;
   write();
   is_written_ = true;
-  if (format_ == "glb") warn_of_many_targets();
+  if (format_ == MeshFormat::glb) warn_of_many_targets();
 }
 
 void AnimationExport::finish(Session&, const std::string&) { run_->forget(kArchivedPositions); }
@@ -76,7 +78,7 @@ void AnimationExport::write() {
   scene_.instants.clear();
   for (std::size_t k = 0; k < times_.size(); ++k) scene_.instants.push_back({times_[k], k});
   const std::string file = run_->path(animation_file(format_)).string();
-  if (format_ == "usd") return write_usd(file, scene_);
+  if (format_ == MeshFormat::usd) return write_usd(file, scene_);
   leave_out_what_does_not_fit();
   write_glb(file, scene_);
 }

@@ -16,9 +16,9 @@ namespace hysteron::experiments {
 class AnimationExport : public Observer {
  public:
   // True if it writes this format of `--export`.
-  static bool writes(const std::string& format);
+  static bool writes(MeshFormat format);
   // Returns the files that it writes, for Run::reserve().
-  static std::vector<std::string> files(const std::string& format);
+  static std::vector<std::string> files(MeshFormat format);
 
   ~AnimationExport() override;
   void begin(Session& session) override;
@@ -34,7 +34,7 @@ class AnimationExport : public Observer {
   void warn_of_many_targets() const;
 
   Run* run_ = nullptr;
-  std::string format_;
+  MeshFormat format_ = MeshFormat::none;
   AnimatedScene scene_;
   std::vector<double> times_;  // times of the recorded instants [s]
   bool is_written_ = false;

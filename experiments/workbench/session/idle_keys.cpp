@@ -20,9 +20,9 @@ bool is_mesh(const Obstacle& obstacle) { return obstacle.kind == ObstacleKind::m
 
 using K = ObstacleKind;
 constexpr ReadKey<Pin> kPins[] = {
-    {"low", "select = box", [](const Pin& pin) { return pin.select == "box"; }},
-    {"high", "select = box", [](const Pin& pin) { return pin.select == "box"; }},
-    {"point", "select = nearest", [](const Pin& pin) { return pin.select == "nearest"; }},
+    {"low", "select = box", [](const Pin& pin) { return pin.select == PinSelection::box; }},
+    {"high", "select = box", [](const Pin& pin) { return pin.select == PinSelection::box; }},
+    {"point", "select = nearest", [](const Pin& pin) { return pin.select == PinSelection::nearest; }},
     {"home", "from > 0", [](const Pin& pin) { return pin.from > 0; }},
     {"axis", "a keyframe's angle", [](const Pin& pin) { return turns(pin.motion); }},
     {"center", "a keyframe's angle", [](const Pin& pin) { return turns(pin.motion); }},

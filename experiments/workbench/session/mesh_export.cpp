@@ -18,13 +18,14 @@ namespace {
 constexpr const char* kInstants = "mesh/cloth.pvd";
 constexpr const char *kCacheMesh = "mesh/cloth.obj", *kCache = "mesh/cloth.pc2";
 
-std::string mesh_name(std::size_t number, const std::string& format) {
-  return fmt::format("{:04}.{}", number, format == "vtk" ? "vtp" : format == "mitsuba" ? "ply" : format);
+std::string mesh_name(std::size_t number, MeshFormat format) {
+  const std::string ending = format == MeshFormat::vtk       ? "vtp"
+                             : format == MeshFormat::mitsuba ? "ply"
+                                                             : enum_name(format);
+  return fmt::format("{:04}.{}", number, ending);
 }
 
-std::string mesh_file(std::size_t number, const std::string& format) {
-  return "mesh/" + mesh_name(number, format);
-}
+std::string mesh_file(std::size_t number, MeshFormat format) { return "mesh/" + mesh_name(number, format); }
 
 std::string scene_file(std::size_t number) { return fmt::format("mesh/{:04}.xml", number); }
 // Returns the name of a body's file; a body that changes its shape has one for each instant.
@@ -72,17 +73,17 @@ void write_fields(const std::string& file, const ClothMesh& mesh, Simulation& si
 
 }  // namespace
 
-std::vector<std::string> MeshExport::files(const std::string& format) {
-  if (format == "none") return {};
-  if (format == "pc2") return {kCacheMesh, kCache};
-  if (format == "vtk") return {mesh_file(0, format), kInstants};
-  if (format == "mitsuba") return {mesh_file(0, format), scene_file(0), "mesh/" + body_file(0)};
+std::vector<std::string> MeshExport::files(MeshFormat format) {
+  if (format == MeshFormat::none) return {};
+  if (format == MeshFormat::pc2) return {kCacheMesh, kCache};
+  if (format == MeshFormat::vtk) return {mesh_file(0, format), kInstants};
+  if (format == MeshFormat::mitsuba) return {mesh_file(0, format), scene_file(0), "mesh/" + body_file(0)};
   return {mesh_file(0, format)};
 }
 
 // Prepares the pictures' view for format mitsuba.
 void MeshExport::begin(Session& session) {
-  if (session.setup().options.export_format == "mitsuba")
+  if (session.setup().options.export_format == MeshFormat::mitsuba)
     view_ = picture_view(session.setup(), session.bounds(), session.plan().floor);
 }
 
@@ -103,12 +104,12 @@ void MeshExport::write_scene(Session& session, std::size_t number, const Snapsho
   view.look.to_light =
       render::key_direction(view.look, view.camera, render::plane_normal(flat_points(instant.x)));
   write_text(run.path(scene_file(number)),
-             mitsuba_scene(view, session.scene(), instant.time, mesh_name(number, "ply"), bodies));
+             mitsuba_scene(view, session.scene(), instant.time, mesh_name(number, MeshFormat::ply), bodies));
 }
 
 void MeshExport::record(Session& session, const Snapshot& instant) {
-  const std::string& format = session.setup().options.export_format;
-  if (format == "none" || !session.is_pictured(instant)) return;
+  const MeshFormat format = session.setup().options.export_format;
+  if (format == MeshFormat::none || !session.is_pictured(instant)) return;
   Run& run = session.run();
   Simulation& simulation = session.simulation();
   const ClothMesh& mesh = session.cloth().mesh;
@@ -116,15 +117,15 @@ void MeshExport::record(Session& session, const Snapshot& instant) {
   const auto stage = run.stage("io");
   const std::size_t number = times_.size();
   times_.push_back(instant.time);
-  if (format == "pc2") {
+  if (format == MeshFormat::pc2) {
     if (number == 0) write_obj(run.path(kCacheMesh).string(), mesh, x);
     return write_to_point_cache(run.path(kCache).string(), number, x);
   }
   const std::string file = run.path(mesh_file(number, format)).string();
-  if (format == "obj") return write_obj(file, mesh, x);
+  if (format == MeshFormat::obj) return write_obj(file, mesh, x);
   if (view_ && number == 0) side_ = render::long_side(flat_triangles(mesh.face), flat_points(mesh.rest), 3);
   if (view_) write_scene(session, number, instant);
-  if (format == "ply" || format == "mitsuba") {
+  if (format == MeshFormat::ply || format == MeshFormat::mitsuba) {
     const std::vector<float> k = vertex_curvature(mesh, simulation.curvature(), simulation.dimension());
     return write_ply(file, mesh, x, {k.begin(), k.end()});
   }

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 class MeshExport : public Observer {
  public:
   // Returns the files that it writes, for Run::reserve().
-  static std::vector<std::string> files(const std::string& format);
+  static std::vector<std::string> files(MeshFormat format);
   void begin(Session& session) override;
   // Writes one instant in the format of `--export`: none; obj; ply with the curvature at each vertex; vtk
   // with the fields of vertices and, if elements are faces, those of faces, and cloth.pvd with the times;

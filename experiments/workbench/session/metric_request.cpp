@@ -1,7 +1,6 @@
 #include "experiments/workbench/session/metric_request.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -21,54 +20,65 @@ namespace {
 using M = MetricRequest;
 // clang-format off
 const KeyRow<M> kRows[] = {
-    {"name", at<&M::name>, "", any(), "", "of the column in metrics.csv and, with its unit, of the metric: small letters, digits and _"},
-    {"kind", at<&M::kind>, "", any(), "distance | height | angle | force | residual-curvature | ridge-length | ridge-height | silhouette", "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a pin on the cloth; of a part: root mean square of its residual curvature over the area, length of the ridges where that exceeds threshold, their height from valley to crest, share of its silhouette that has changed"},
-    {"from", at<&M::from>, "s", at_least(-1), "", "less its value at this time, which may name a phase, and 0 before it; silhouette: against that at this time; negative: the value itself"},
-    {"point", at<&M::point>, "m", any(), "", "distance, height: of the vertex nearest to this on the flat cloth"},
-    {"to", at<&M::to>, "m", any(), "", "distance: to the vertex nearest to this"},
-    {"low", at<&M::low>, "m", any(), "", "corner of the box that contains the part, on the flat cloth"},
-    {"high", at<&M::high>, "m", any(), "", "opposite corner of the box, >= low"},
-    {"other-low", at<&M::other_low>, "m", any(), "", "angle: the same of the other part"},
-    {"other-high", at<&M::other_high>, "m", any(), "", "angle: the same of the other part"},
-    {"hand", at<&M::hand>, "", between(1, 1e6), "", "force: number of the [[pin]], the first is 1"},
-    {"direction", at<&M::direction>, "", any(), "", "force: its component along this; zero: its size; silhouette: seen along this"},
-    {"threshold", at<&M::threshold>, "1/m", positive(), "", "ridge-length: residual curvature from which a place counts as part of a ridge"},
-    {"cutoff", at<&M::cutoff>, "m", positive(), "", "ridge-height: wavelength of which half counts as shape and not as ridges"},
+    {"name", at<&M::name>, "", any(), "of the column in metrics.csv and, with its unit, of the metric: small letters, digits and _"},
+    {"kind", at<&M::kind>, "", any(), "distance of point and to; height of point; angle between the mean normals of two parts, 0 when they are parallel; force of a pin on the cloth; of a part: root mean square of its residual curvature over the area, length of the ridges where that exceeds threshold, their height from valley to crest, share of its silhouette that has changed"},
+    {"from", at<&M::from>, "s", at_least(-1), "less its value at this time, which may name a phase, and 0 before it; silhouette: against that at this time; negative: the value itself"},
+    {"point", at<&M::point>, "m", any(), "distance, height: of the vertex nearest to this on the flat cloth"},
+    {"to", at<&M::to>, "m", any(), "distance: to the vertex nearest to this"},
+    {"low", at<&M::low>, "m", any(), "corner of the box that contains the part, on the flat cloth"},
+    {"high", at<&M::high>, "m", any(), "opposite corner of the box, >= low"},
+    {"other-low", at<&M::other_low>, "m", any(), "angle: the same of the other part"},
+    {"other-high", at<&M::other_high>, "m", any(), "angle: the same of the other part"},
+    {"hand", at<&M::hand>, "", between(1, 1e6), "force: number of the [[pin]], the first is 1"},
+    {"direction", at<&M::direction>, "", any(), "force: its component along this; zero: its size; silhouette: seen along this"},
+    {"threshold", at<&M::threshold>, "1/m", positive(), "ridge-length: residual curvature from which a place counts as part of a ridge"},
+    {"cutoff", at<&M::cutoff>, "m", positive(), "ridge-height: wavelength of which half counts as shape and not as ridges"},
 };
 // clang-format on
 
-bool is_of(const M& request, std::initializer_list<const char*> kinds) {
+using Kind = MetricKind;
+bool is_of(const M& request, std::initializer_list<Kind> kinds) {
   return std::ranges::find(kinds, request.kind) != kinds.end();
 }
 
 constexpr ReadKey<M> kRead[] = {
     {"point", "a distance or height",
      [](const M& m) {
-       return is_of(m, {"distance", "height"});
+       return is_of(m, {Kind::distance, Kind::height});
      }},
-    {"to", "a distance", [](const M& m) { return is_of(m, {"distance"}); }},
+    {"to", "a distance", [](const M& m) { return is_of(m, {Kind::distance}); }},
     {"low", "a kind with a part", [](const M& m) { return m.has_part(); }},
     {"high", "a kind with a part", [](const M& m) { return m.has_part(); }},
-    {"other-low", "an angle", [](const M& m) { return is_of(m, {"angle"}); }},
-    {"other-high", "an angle", [](const M& m) { return is_of(m, {"angle"}); }},
-    {"hand", "a force", [](const M& m) { return is_of(m, {"force"}); }},
+    {"other-low", "an angle", [](const M& m) { return is_of(m, {Kind::angle}); }},
+    {"other-high", "an angle", [](const M& m) { return is_of(m, {Kind::angle}); }},
+    {"hand", "a force", [](const M& m) { return is_of(m, {Kind::force}); }},
     {"direction", "a force or silhouette",
      [](const M& m) {
-       return is_of(m, {"force", "silhouette"});
+       return is_of(m, {Kind::force, Kind::silhouette});
      }},
-    {"threshold", "a ridge-length", [](const M& m) { return is_of(m, {"ridge-length"}); }},
-    {"cutoff", "a ridge-height", [](const M& m) { return is_of(m, {"ridge-height"}); }},
+    {"threshold", "a ridge-length", [](const M& m) { return is_of(m, {Kind::ridge_length}); }},
+    {"cutoff", "a ridge-height", [](const M& m) { return is_of(m, {Kind::ridge_height}); }},
 };
 
-const std::map<std::string, std::pair<const char*, const char*>> kUnits = {
-    {"distance", {"m", "_m"}},
-    {"height", {"m", "_m"}},
-    {"angle", {"degree", "_deg"}},
-    {"force", {"N", "_N"}},
-    {"residual-curvature", {"1/m", "_per_m"}},
-    {"ridge-length", {"m", "_m"}},
-    {"ridge-height", {"m", "_m"}},
-    {"silhouette", {"%", "_percent"}}};
+// Returns the unit of a kind, and the end of its metrics' keys.
+std::pair<const char*, const char*> unit_of(Kind kind) {
+  switch (kind) {
+    case Kind::distance:
+    case Kind::height:
+    case Kind::ridge_length:
+    case Kind::ridge_height:
+      return {"m", "_m"};
+    case Kind::angle:
+      return {"degree", "_deg"};
+    case Kind::force:
+      return {"N", "_N"};
+    case Kind::residual_curvature:
+      return {"1/m", "_per_m"};
+    case Kind::silhouette:
+      break;
+  }
+  return {"%", "_percent"};
+}
 
 // The results of every run whose names could be those of requests.
 const std::set<std::string> kOwnResults = {"hand_lag_m", "residual_curvature_rms_per_m",
@@ -119,15 +129,15 @@ ValueTree metric_tables(const std::string& file) {
 
 }  // namespace
 
-bool MetricRequest::has_part() const { return !is_of(*this, {"distance", "height", "force"}); }
+bool MetricRequest::has_part() const { return !is_of(*this, {Kind::distance, Kind::height, Kind::force}); }
 
 Error MetricRequest::refusal(const std::string& what) const {
   return Error::invalid_input("metric " + name + ": " + what + " (" + origin + ")");
 }
 
-std::string MetricRequest::column() const { return name + " [" + kUnits.at(kind).first + "]"; }
+std::string MetricRequest::column() const { return name + " [" + unit_of(kind).first + "]"; }
 std::string MetricRequest::metric(int cycle) const {
-  return name + (cycle > 0 ? "_cycle_" + std::to_string(cycle) : "") + kUnits.at(kind).second;
+  return name + (cycle > 0 ? "_cycle_" + std::to_string(cycle) : "") + unit_of(kind).second;
 }
 
 Keys bind_metric(MetricRequest& request) { return bind(kRows, request); }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,25 @@
 
 namespace hysteron::experiments {
 
+// What a metric measures, as the doc of the key `kind` says.
+enum class MetricKind {
+  distance,
+  height,
+  angle,
+  force,
+  residual_curvature,
+  ridge_length,
+  ridge_height,
+  silhouette
+};
+constexpr std::array<const char*, 8> names(MetricKind) {
+  return {"distance",           "height",       "angle",        "force",
+          "residual-curvature", "ridge-length", "ridge-height", "silhouette"};
+}
+
 struct MetricRequest {
   std::string name;
-  std::string kind = "distance";
+  MetricKind kind = MetricKind::distance;
   Eigen::Vector3d point{0, 0, 0};
   Eigen::Vector3d to{0, 0, 0};
   Eigen::Vector3d low{-1e3, -1e3, -1e3};

@@ -92,8 +92,8 @@ class SolverStats : public Observer {
 
 void SolverStats::begin(Session& session) {
   const Options& options = session.setup().options;
-  const std::string& format = options.export_format;
-  const bool draws = !options.no_images || format == "pc2" || AnimationExport::writes(format);
+  const MeshFormat format = options.export_format;
+  const bool draws = !options.no_images || format == MeshFormat::pc2 || AnimationExport::writes(format);
   const std::string warning = drawing_text(session.scene(), session.cloth());
   if (draws && !warning.empty()) session.run().warn(warning);
 }

@@ -61,28 +61,28 @@ constexpr const char* kCyclesFile = "cycles.csv";
 RequestedMetric::RequestedMetric(const MetricRequest& request, const Scene& scene, const Cloth& cloth,
                                  int dimension)
     : request_(request), scene_(scene), cloth_(cloth) {
-  const std::string& kind = request.kind;
+  const MetricKind kind = request.kind;
   const MetricRequest& r = request;
-  if (kind == "force") {
+  if (kind == MetricKind::force) {
     check_force();
     return;
   }
-  if (kind == "distance" || kind == "height") {
+  if (kind == MetricKind::distance || kind == MetricKind::height) {
     items_ = {requested_vertex(cloth.mesh, request, "point", request.point)};
-    if (kind == "height") return;
+    if (kind == MetricKind::height) return;
     others_ = {requested_vertex(cloth.mesh, request, "to", request.to)};
     if (items_ == others_) throw request.refusal("the same vertex is nearest to point and to to");
     return;
   }
-  if (kind == "silhouette" && (r.from < 0 || r.direction.isZero(0)))
+  if (kind == MetricKind::silhouette && (r.from < 0 || r.direction.isZero(0)))
     throw request.refusal(r.from < 0 ? "kind = silhouette needs from, the instant to compare with"
                                      : "kind = silhouette needs the direction that it is seen along");
-  if (kind == "ridge-height")
+  if (kind == MetricKind::ridge_height)
     choose("low", "high", r.low, r.high, cloth.mesh.rest, items_);
   else
-    choose("low", "high", r.low, r.high, cloth.element_centers(kind == "residual-curvature" ? dimension : 3),
-           items_);
-  if (kind == "angle")
+    choose("low", "high", r.low, r.high,
+           cloth.element_centers(kind == MetricKind::residual_curvature ? dimension : 3), items_);
+  if (kind == MetricKind::angle)
     choose("other-low", "other-high", r.other_low, r.other_high, cloth.element_centers(3), others_);
 }
 
@@ -108,7 +108,7 @@ std::string RequestedMetric::warning(double seconds) const {
   if (request_.from >= seconds)
     return "it is not measured, since from = " + number_text(request_.from) + " s is not before the end, " +
            number_text(seconds) + " s";
-  if (request_.kind != "ridge-height") return "";
+  if (request_.kind != MetricKind::ridge_height) return "";
   const double edge = mean_edge_at(cloth_.mesh, items_);
   if (edge * kEdgesOfAWave <= request_.cutoff) return "";
   return "edges of " + number_text(edge, 2) +
@@ -118,7 +118,7 @@ std::string RequestedMetric::warning(double seconds) const {
 
 void RequestedMetric::begin(Simulation& simulation, const std::vector<Eigen::Vector3d>& x) {
   has_begun_ = true;
-  if (request_.kind == "silhouette")
+  if (request_.kind == MetricKind::silhouette)
     x_before_ = x;
   else
     before_ = absolute(simulation, x);
@@ -130,14 +130,14 @@ double RequestedMetric::value(Simulation& simulation, const std::vector<Eigen::V
 }
 
 double RequestedMetric::absolute(Simulation& simulation, const std::vector<Eigen::Vector3d>& x) const {
-  const std::string& kind = request_.kind;
-  if (kind == "distance") return (x[items_[0]] - x[others_[0]]).norm();
-  if (kind == "height") return x[items_[0]].z();
-  if (kind == "angle") return angle(x);
-  if (kind == "force") return force(simulation);
-  if (kind == "ridge-length") return ridge_length(simulation);
-  if (kind == "ridge-height") return ridge_height(cloth_.mesh, x, items_, request_.cutoff);
-  if (kind == "silhouette") return silhouette(x);
+  const MetricKind kind = request_.kind;
+  if (kind == MetricKind::distance) return (x[items_[0]] - x[others_[0]]).norm();
+  if (kind == MetricKind::height) return x[items_[0]].z();
+  if (kind == MetricKind::angle) return angle(x);
+  if (kind == MetricKind::force) return force(simulation);
+  if (kind == MetricKind::ridge_length) return ridge_length(simulation);
+  if (kind == MetricKind::ridge_height) return ridge_height(cloth_.mesh, x, items_, request_.cutoff);
+  if (kind == MetricKind::silhouette) return silhouette(x);
   return residual_curvature(simulation);
 }
 

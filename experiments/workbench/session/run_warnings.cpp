@@ -77,7 +77,8 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
   for (std::size_t p = 0; p < scene.pin.size() && p < cloth.pin_vertices.size(); ++p) {
     const Pin& pin = scene.pin[p];
     const std::string name = "[[pin]] " + std::to_string(p + 1);
-    const double beside = pin.select == "nearest" ? nearest_vertex(cloth.mesh, pin.point).beside : 0;
+    const double beside =
+        pin.select == PinSelection::nearest ? nearest_vertex(cloth.mesh, pin.point).beside : 0;
     if (beside > 0)
       warnings.push_back(name + " holds the vertex that is nearest to its point, which lies " +
                          number_text(beside, 3) + " m beside the flat cloth: is it in metres?");
@@ -99,7 +100,7 @@ std::vector<std::string> pin_warnings(const Scene& scene, const Cloth& cloth) {
 // facets with twice the bend at their edges.
 std::string facets_warning(const Scene& scene, Simulation& simulation) {
   // A pattern is sewn flat, so its initial layout is no bend that it had.
-  const bool is_sewn = scene.cloth.shape == "pattern";
+  const bool is_sewn = scene.cloth.shape == ClothOutline::pattern;
   if (scene.cloth.subdivisions == 0 || is_sewn || !(simulation.ledger().bending > 0)) return "";
   return shown(scene, "cloth.subdivisions", scene.cloth.subdivisions, "") +
          " cuts a start that is bent into facets: its bends gather at the old edges, twice as sharp, and the "

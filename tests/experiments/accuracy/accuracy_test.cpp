@@ -94,7 +94,7 @@ TEST(Sag, OfHingesOnACutGridDropsTooFar) {
   setting.element = BendingElement::hinge;
   setting.load = 1;
   const Found found = problem.solve(setting);
-  EXPECT_NEAR(found.value / found.reference, 1.22, 0.03) << setting.mesh;
+  EXPECT_NEAR(found.value / found.reference, 1.22, 0.03) << enum_name(setting.mesh);
 }
 
 // Observed orders of the integrators on a smooth motion.

@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Swinging,
                                          "random"));
 TEST_P(Swinging, StripHasTheBeamsFrequency) {
   Scene scene = decay_scene(DecayKind::exponential);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.07;
   scene.cloth.width = 0.015;
   scene.mesh = GetParam();

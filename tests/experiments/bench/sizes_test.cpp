@@ -16,7 +16,7 @@ Scene hanging() {
   scene.device = DeviceChoice::cpu;
   scene.threads = 1;
   scene.pin.resize(2);
-  for (Pin& pin : scene.pin) pin.select = "nearest";
+  for (Pin& pin : scene.pin) pin.select = PinSelection::nearest;
   scene.pin[0].point = {0, 0.1, 0};
   scene.pin[1].point = {0.1, 0.1, 0};
   return scene;

@@ -70,7 +70,7 @@ Scene hanging(Integrator integrator, int triangles) {
   scene.linear_solver = Preconditioning::multigrid;
   scene.step = 1e-3;
   scene.pin.resize(2);
-  for (Pin& pin : scene.pin) pin.select = "nearest";
+  for (Pin& pin : scene.pin) pin.select = PinSelection::nearest;
   scene.pin[0].point = {0, 0.1, 0};
   scene.pin[1].point = {0.1, 0.1, 0};
   return scene;

@@ -27,7 +27,7 @@ Metrics quick_drape(const Folder& folder, const std::vector<Flag>& further) {
 // Three times up and down once the plate has gone, then at rest; the disc goes with the pedestal, so that the
 // specimen stays pressed as it was.
 TEST(ShakenDrape, GoesUpAndDownAndStops) {
-  const DrapeParams choice = drape_by_standard("jis");
+  const DrapeParams choice = drape_by_standard(DrapeStandard::jis);
   const Scene scene = with_apparatus(choice);
   ASSERT_EQ(scene.obstacle.size(), 3u);
   const auto height = [&](int obstacle, double time) {
@@ -49,10 +49,11 @@ TEST(ShakenDrape, GoesUpAndDownAndStops) {
 
 // A published drape is one of its own tester: of that standard, with its sizes.
 TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
-  const DrapeParams iso = drape_by_standard("iso9073"), jis = drape_by_standard("jis");
+  const DrapeParams iso = drape_by_standard(DrapeStandard::iso9073),
+                    jis = drape_by_standard(DrapeStandard::jis);
   Fabric fabric;
   EXPECT_EQ(other_tester_message(fabric, iso, 0.15), "") << "none is published";
-  fabric.published["drape-coefficient"] = {82.9, "%", {}, "jis"};
+  fabric.published["drape-coefficient"] = {82.9, "%", {}, DrapeStandard::jis};
   const PublishedNumber& number = fabric.published["drape-coefficient"];
   EXPECT_TRUE(is_own_tester(number, jis, 0.127));
   EXPECT_EQ(other_tester_message(fabric, jis, 0.127), "");
@@ -60,7 +61,7 @@ TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
   EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "--drape.standard jis"));
   DrapeParams dropped = jis, beside = jis;
   DrapeParams shaken_once = jis, read_at_once = jis;
-  dropped.release = "dropped", beside.offset = 0.02;
+  dropped.release = DrapeRelease::dropped, beside.offset = 0.02;
   shaken_once.shakes = 1, read_at_once.wait = 0;
   for (const DrapeParams& other : {dropped, beside, shaken_once, read_at_once}) {
     EXPECT_FALSE(is_own_tester(number, other, 0.127));
@@ -68,7 +69,7 @@ TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
   }
   EXPECT_FALSE(is_own_tester(number, jis, 0.15)) << "another specimen";
   EXPECT_TRUE(says(other_tester_message(fabric, jis, 0.15), "without drape.disc and cloth.radius"));
-  fabric.published["drape-coefficient"].tester = "";
+  fabric.published["drape-coefficient"].tester.reset();
   EXPECT_FALSE(is_own_tester(number, iso, 0.15));
   EXPECT_TRUE(says(other_tester_message(fabric, iso, 0.15), "names no tester"));
 }
@@ -109,13 +110,13 @@ TEST(Drape, RefusesGravityThatPullsTheSpecimenOffAndWarnsOfATilt) {
 }
 
 TEST(LoweredDrape, DoesNotShake) {
-  for (const char* release : {"lowered", "relifted", "dropped"}) {
+  for (const DrapeRelease release : {DrapeRelease::lowered, DrapeRelease::relifted, DrapeRelease::dropped}) {
     DrapeParams choice;
     choice.release = release;
     const Scene scene = with_apparatus(choice);
-    EXPECT_TRUE(scene.obstacle[0].motion.keys.empty()) << release;
-    EXPECT_TRUE(scene.obstacle[1].motion.keys.empty()) << release;
-    EXPECT_EQ(choice.released(), choice.lowered()) << release;
+    EXPECT_TRUE(scene.obstacle[0].motion.keys.empty()) << enum_name(release);
+    EXPECT_TRUE(scene.obstacle[1].motion.keys.empty()) << enum_name(release);
+    EXPECT_EQ(choice.released(), choice.lowered()) << enum_name(release);
   }
 }
 
@@ -159,7 +160,7 @@ TEST(SeededFolds, RaiseTheRimAloneAndNeedARingThatNothingCarries) {
   choice.folds = 4;
   std::vector<Eigen::Vector3d> start{{0.15, 0, 0}, {0, -0.15, 0}, {0.12, 0, 0}, {0.05, 0.05, 0}};
   EXPECT_THROW(seed_folds(start, choice, 0.15), Error);
-  choice.release = "dropped";
+  choice.release = DrapeRelease::dropped;
   seed_folds(start, choice, 0.15);
   EXPECT_NEAR(start[0].z(), kFoldSeed, 1e-12);
   EXPECT_NEAR(start[1].z(), kFoldSeed, 1e-12);

@@ -19,7 +19,7 @@ class Draped : public testing::Test {
   Scene disc_scene(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& at) {
     write_obj(file(), mesh, at);
     Scene scene = default_scene();
-    scene.cloth.shape = "file";
+    scene.cloth.shape = ClothOutline::file;
     scene.cloth.file = file();
     return scene;
   }

@@ -10,7 +10,7 @@ namespace {
 
 ClothMesh disc(int triangles) {
   Scene scene = default_scene();
-  scene.cloth.shape = "disc";
+  scene.cloth.shape = ClothOutline::disc;
   scene.cloth.radius = 0.15;
   scene.triangles = triangles;
   return make_cloth(scene).mesh;

@@ -198,7 +198,7 @@ std::string mesh_name(const testing::TestParamInfo<std::string>& test) {
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
-INSTANTIATE_TEST_SUITE_P(KesStrip, AnyMesh, testing::ValuesIn(strip_meshes()), mesh_name);
+INSTANTIATE_TEST_SUITE_P(KesStrip, AnyMesh, testing::ValuesIn(every_name<MeshFamily>()), mesh_name);
 
 class RadialLaw : public testing::TestWithParam<std::string> {};
 

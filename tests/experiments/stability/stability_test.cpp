@@ -229,7 +229,7 @@ constexpr int kLimitSteps = 600;
 
 class ExplicitLimit : public testing::TestWithParam<LimitCase> {};
 INSTANTIATE_TEST_SUITE_P(Bending, ExplicitLimit, testing::ValuesIn(limit_cases(true)), [](const auto& of) {
-  return of.param.mesh + "_" + enum_name(of.param.element) + (of.param.held ? "_held" : "_free");
+  return enum_name(of.param.mesh) + "_" + enum_name(of.param.element) + (of.param.held ? "_held" : "_free");
 });
 
 // Linear waves without damping: the limit is 2/omega, of which the program keeps 0.75.

@@ -71,7 +71,7 @@ TEST(Swing, OfAMeshIsClampedAtItsOwnLowEnd) {
   const fs::path centred = strip_file(folder.path(), {-0.05, -0.015});
   expect_same_swing(from_zero, swing_with({{"cloth.file", centred}, {"cloth.shape", "file"}}));
   Scene scene;
-  scene.cloth.shape = "file";
+  scene.cloth.shape = ClothOutline::file;
   scene.cloth.file = centred;
   clamp_low_end(scene);
   const Cloth cloth = make_cloth(scene);
@@ -95,7 +95,7 @@ TEST(Swing, OfAMeshThatIsClampedByItsLongSideSaysSo) {
   const Folder folder;
   const fs::path file = strip_file(folder.path(), {0, 0});
   Scene scene;
-  scene.cloth.shape = "file", scene.cloth.file = file;
+  scene.cloth.shape = ClothOutline::file, scene.cloth.file = file;
   EXPECT_EQ(long_side_warning(scene, make_cloth(scene).mesh), "");
   std::string lines = file_content(file), turned;
   std::istringstream in(lines);
@@ -122,7 +122,7 @@ TEST(Swing, OfASheetThatHangsByTwoCornersIsAcrossTheirLine) {
   scene.cloth.length = 0.5;
   scene.triangles = 64;
   Pin left, right;
-  left.select = right.select = "nearest";
+  left.select = right.select = PinSelection::nearest;
   left.point = {0, 0.5, 0};
   right.point = {0.5, 0.5, 0};
   scene.pin = {left, right};

@@ -31,15 +31,15 @@ TEST(BudgetTrials, ChangeOneThingEach) {
       const Trial& trial = trials[next++];
       EXPECT_EQ(trial.number, key);
       EXPECT_EQ(std::stod(trial.value), end);
-      EXPECT_EQ(trial.drape.standard, "jis") << "the published one";
+      EXPECT_EQ(trial.drape.standard, DrapeStandard::jis) << "the published one";
       EXPECT_EQ(trial.drape.triangles, trials[0].drape.triangles);
     }
   const Trial &tester = trials[next], &mesh = trials[next + 1];
   EXPECT_EQ(tester.value, "iso9073");
-  EXPECT_EQ(tester.drape.release, "lowered");
+  EXPECT_EQ(tester.drape.release, DrapeRelease::lowered);
   EXPECT_TRUE(tester.drape.further.empty());
   EXPECT_EQ(mesh.drape.triangles, 4 * flags.triangles);
-  EXPECT_EQ(mesh.drape.standard, "jis");
+  EXPECT_EQ(mesh.drape.standard, DrapeStandard::jis);
   EXPECT_TRUE(mesh.drape.further.empty());
 }
 

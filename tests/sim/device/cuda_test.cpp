@@ -175,7 +175,7 @@ TEST_F(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
 // the square of the fineness.
 Scene folding_strip(const std::string& integrator) {
   Scene scene = test::free_square(integrator == "implicit" ? 600 : 100);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.02;
   scene.integrator = value_named<Integrator>(integrator);
@@ -248,7 +248,7 @@ TEST_F(Gpu, PinchesClothBetweenBodiesOfTrianglesAsTheCpuDoes) {
 // Returns a strip that swings by one end.
 Scene swinging_strip() {
   Scene scene = busy_scene("prandtl", "shape", "implicit");
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.width = 0.03;
   scene.triangles = 600;
   scene.pin.resize(1);

@@ -98,7 +98,7 @@ TEST_F(FastSheetTest, ADrapeIsComparedWithAndNothingIsMadeOfIt) {
   const std::string rows = "C,mm,,,20\nW,g/m^2,,,150\n";
   const Fabric with = fabric(read(rows + "DC-JIS,%,,,62\n")), without = fabric(read(rows));
   EXPECT_DOUBLE_EQ(with.published.at("drape-coefficient").value, 62);
-  EXPECT_EQ(with.published.at("drape-coefficient").tester, "jis");
+  EXPECT_EQ(with.published.at("drape-coefficient").tester, DrapeStandard::jis);
   EXPECT_EQ(with.b1, without.b1);
   EXPECT_NE(refused(rows + "DC-JIS,%,,,62\nDC-ISO9073,%,,,60\n").find("not two"), std::string::npos);
 }

@@ -13,7 +13,7 @@ using test::says;
 // The specimen of a drape test, in cotton broad.
 Scene drape(int triangles, double stiffness) {
   Scene scene;
-  scene.cloth.shape = "disc";
+  scene.cloth.shape = ClothOutline::disc;
   scene.cloth.radius = 0.15;
   scene.triangles = triangles;
   scene.fabric.warp = scene.fabric.weft = stiffness;

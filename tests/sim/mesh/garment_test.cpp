@@ -41,7 +41,7 @@ TEST_F(Rolled, PatternIsTheClothAtRest) {
 
 TEST_F(Rolled, ClothOfAPatternStartsWhereItsVerticesAre) {
   Scene scene;
-  scene.cloth.shape = "pattern";
+  scene.cloth.shape = ClothOutline::pattern;
   scene.cloth.file = file_.path();
   scene.cloth.position = {0, 0, 1};
   const Cloth cloth = make_cloth(scene);
@@ -55,7 +55,7 @@ TEST_F(Rolled, ClothStartsAsAnotherFileOfItsTrianglesHasIt) {
   const TextFile rest("", ".obj");
   write_obj(rest.path(), flat_, flat_.rest);
   Scene scene;
-  scene.cloth.shape = "file";
+  scene.cloth.shape = ClothOutline::file;
   scene.cloth.file = rest.path();
   scene.cloth.start = file_.path();
   const Cloth cloth = make_cloth(scene);

@@ -47,7 +47,7 @@ TEST(Panels, OfTheWornClothWeighWhatTheFlatOnesDo) {
 TEST(Panels, StartWhereTheVerticesAreAndPinsFindThemThere) {
   const TextFile file(PanelTube{.second = moved}.obj(), ".obj");
   Scene scene;
-  scene.cloth.shape = "pattern";
+  scene.cloth.shape = ClothOutline::pattern;
   scene.cloth.file = file.path();
   scene.cloth.position = {0, 0, 1};
   Pin& ring = scene.pin.emplace_back();
@@ -64,7 +64,7 @@ TEST(Panels, StartWhereTheVerticesAreAndPinsFindThemThere) {
 TEST(Panels, RefuseAPinThatHoldsNoneOfThemWithWhereTheyAre) {
   const TextFile file(PanelTube{.second = moved}.obj(), ".obj");
   Scene scene;
-  scene.cloth.shape = "pattern";
+  scene.cloth.shape = ClothOutline::pattern;
   scene.cloth.file = file.path();
   Pin& elsewhere = scene.pin.emplace_back();
   elsewhere.low = elsewhere.high = {0, 0, 1};

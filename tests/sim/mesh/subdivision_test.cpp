@@ -41,7 +41,7 @@ TEST(Subdivision, StartsInTheMiddlesOfTheFilesEdges) {
   write_obj(rest.path(), flat, flat.rest);
   write_obj(start.path(), flat, bent);
   Scene scene;
-  scene.cloth.shape = "file";
+  scene.cloth.shape = ClothOutline::file;
   scene.cloth.file = rest.path();
   scene.cloth.start = start.path();
   scene.cloth.subdivisions = 1;

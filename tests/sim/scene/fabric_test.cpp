@@ -97,7 +97,7 @@ TEST_P(DrapedFabric, StatesBetweenWhichNumbersThePrintRounds) {
 
 TEST_P(DrapedFabric, KeepsTheMeasuredDrapeForComparison) {
   EXPECT_EQ(fabric.published.at("drape-coefficient").unit, "%");
-  EXPECT_EQ(fabric.published.at("drape-coefficient").tester, "jis");
+  EXPECT_EQ(fabric.published.at("drape-coefficient").tester, DrapeStandard::jis);
   EXPECT_GT(published("drape-coefficient"), 0);
   EXPECT_LT(published("drape-coefficient"), 100);
   EXPECT_GE(published("node-count"), 2);

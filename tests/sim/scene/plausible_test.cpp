@@ -20,7 +20,7 @@ class DiscFile : public testing::Test {
     for (const Eigen::Vector3d& x : disc_.rest) scaled.push_back(scale * x);
     write_obj(file_.path(), disc_, scaled);
     Scene scene;
-    scene.cloth.shape = "file";
+    scene.cloth.shape = ClothOutline::file;
     scene.cloth.file = file_.path();
     scene.cloth.unit = unit;
     return scene;
@@ -96,8 +96,8 @@ TEST(BuiltCloth, LeavesNoFileUnread) {
   Scene scene = default_scene();
   set_key(scene, "cloth.file", "disc.obj", "--cloth.file");
   EXPECT_EQ(refusal([&] { check_scene(scene); }),
-            "cloth.file = disc.obj (--cloth.file) is not read by a cloth of shape " + scene.cloth.shape +
-                ": give cloth.shape = file, or pattern");
+            "cloth.file = disc.obj (--cloth.file) is not read by a cloth of shape " +
+                enum_name(scene.cloth.shape) + ": give cloth.shape = file, or pattern");
   set_key(scene, "cloth.shape", "disc", "--cloth.shape");
   EXPECT_NO_THROW(check_scene(scene));
 }

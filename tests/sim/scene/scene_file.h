@@ -43,9 +43,9 @@ struct Pictures {
 
 // Returns a shipped scene without what experiments add to it.
 inline Scene shipped_scene(const std::string& name) {
-  static const KeyRow<Pictures> kRows[] = {{"size", at<&Pictures::size>, "", any(), "", ""},
-                                           {"camera.direction", at<&Pictures::direction>, "", any(), "", ""},
-                                           {"camera.box", at<&Pictures::box>, "m", any(), "", ""}};
+  static const KeyRow<Pictures> kRows[] = {{"size", at<&Pictures::size>, "", any(), ""},
+                                           {"camera.direction", at<&Pictures::direction>, "", any(), ""},
+                                           {"camera.box", at<&Pictures::box>, "m", any(), ""}};
   Pictures pictures;
   Scene scene = default_scene();
   apply_scene_file(scene, name, bind(kRows, pictures), {"metric"});

@@ -125,7 +125,7 @@ TEST(SceneFile, LeavesNoTableToOthersThatIsNoArray) {
 TEST(SceneFile, SetsAnExperimentsOwnKeysToo) {
   double frames_per_second = 0;
   const Field field = &frames_per_second;
-  const Keys own = {{describe("fps", field, "1/s", positive(), "", "pictures"), field}};
+  const Keys own = {{describe("fps", field, "1/s", positive(), "pictures"), field}};
   const TextFile file("fps = 25\n");
   Scene scene = default_scene();
   apply_scene_file(scene, file.path(), own);

@@ -15,7 +15,7 @@ Scene strip_in(const std::string& start, double length, double width, double rad
   Scene scene;
   scene.mesh = "random";
   scene.triangles = 2000;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.start = start;
   scene.cloth.length = length;
   scene.cloth.width = width;
@@ -35,7 +35,7 @@ Scene ten_sheets() {
   Scene scene;
   scene.mesh = "random";
   scene.triangles = 1000;
-  scene.cloth.shape = "square";
+  scene.cloth.shape = ClothOutline::square;
   scene.cloth.length = 0.2;
   scene.cloth.copies = 10;
   scene.cloth.copy_offset = {0, 0, 0.012};
@@ -136,7 +136,7 @@ const BadStart kBadStarts[] = {
     {"KnotInAShortStrip", knotted, [](Scene& s) { s.cloth.length = 0.2; }, {"cloth.length = 0.2 m", ">="}},
     {"KnotInADisc",
      knotted,
-     [](Scene& s) { s.cloth.shape = "disc"; },
+     [](Scene& s) { s.cloth.shape = ClothOutline::disc; },
      {"cloth.start = knot", "strip", "disc"}},
     {"PleatsThinnerThanCloth",
      pleated,

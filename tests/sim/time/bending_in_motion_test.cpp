@@ -97,7 +97,7 @@ struct Fold {
   }
   static Scene scene(const std::string& law) {
     Scene scene = test::free_square();
-    scene.cloth.shape = "strip";
+    scene.cloth.shape = ClothOutline::strip;
     scene.cloth.length = kStrip;
     scene.cloth.width = 4 * kCell;
     scene.mesh = "aligned";

@@ -37,7 +37,7 @@ Trial drape() {
 // A strip whose one end is turned over by more than a right angle, and let go.
 Trial crease() {
   Scene scene = test::free_square(240);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.02;
   scene.law = "prandtl";

@@ -64,7 +64,7 @@ TEST_P(Order, AgreesWithTinyExplicitStepsThroughReversals) {
 // Returns a strip held at its left end, bending by its own weight.
 Scene cantilever(const std::string& law, const std::string& integrator) {
   Scene scene = test::free_square(120);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.02;
   scene.law = law;

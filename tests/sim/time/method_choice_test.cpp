@@ -11,7 +11,7 @@ namespace {
 
 Scene sheet(double length, double width, int triangles) {
   Scene scene;
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.length = length;
   scene.cloth.width = width;
   scene.triangles = triangles;

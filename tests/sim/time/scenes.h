@@ -41,7 +41,7 @@ struct Method {
 
 inline Pin pin_at(double x, double y) {
   Pin pin;
-  pin.select = "nearest";
+  pin.select = PinSelection::nearest;
   pin.point = {x, y, 0};
   return pin;
 }

@@ -11,7 +11,7 @@ namespace {
 double iterations_of_a_solve(int wide, int long_, Preconditioning solver) {
   constexpr double kWidth = 0.02;
   Scene scene = test::free_square(2 * wide * long_);
-  scene.cloth.shape = "strip";
+  scene.cloth.shape = ClothOutline::strip;
   scene.cloth.width = kWidth;
   scene.cloth.length = kWidth * long_ / wide;
   scene.law = "prandtl";

@@ -16,8 +16,8 @@ struct SpringBackChoice {
 using S = SpringBackChoice;
 // clang-format off
 const KeyRow<S> kRows[] = {
-    {"law", at<&S::law>, "", any(), "", "see `hysteron list laws`"},
-    {"curvature", at<&S::curvature>, "1/m", positive(), "", "to which the fabric is bent before it is let go"},
+    {"law", at<&S::law>, "", any(), "see `hysteron list laws`"},
+    {"curvature", at<&S::curvature>, "1/m", positive(), "to which the fabric is bent before it is let go"},
 };
 // clang-format on
 

@@ -21,7 +21,7 @@ TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {
   defaults.scene.seconds = 9;
   double starch = 0;
   const Field field = &starch;
-  const Keys own = {{describe("starch", field, "g", positive(), "", "the experiment's own key"), field}};
+  const Keys own = {{describe("starch", field, "g", positive(), "the experiment's own key"), field}};
   const auto setup =
       set_up(drape_with({{"triangles", "20"}, {"scene", file}, {"size", "64x48"}}), defaults, own);
   EXPECT_EQ(setup.scene.triangles, 20);
@@ -40,7 +40,7 @@ TEST(Setup, PutsFlagsOverQuickOverTheSceneFile) {
       folder.write("scene.toml", "triangles = 5000\nseconds = 9\nstarch = 7\nfps = 60\n");
   double starch = 0;
   const Field field = &starch;
-  const Keys own = {{describe("starch", field, "g", positive(), "", "the experiment's own key"), field}};
+  const Keys own = {{describe("starch", field, "g", positive(), "the experiment's own key"), field}};
   const auto quick = [&](experiments::Setup& setup) {
     setup.scene.triangles = std::min(setup.scene.triangles, 100);
     setup.scene.seconds = std::min(setup.scene.seconds, 1.0);
@@ -67,7 +67,7 @@ TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
   const Field fields[] = {&is_quick, &work, &steps};
   Keys keys;
   for (int i = 0; const char* path : {"quick", "work", "steps"})
-    keys.push_back({describe(path, fields[i], "", any(), "", ""), fields[i]}), ++i;
+    keys.push_back({describe(path, fields[i], "", any(), ""), fields[i]}), ++i;
   const auto quick = [&] { work = steps = 1; };
   set_keys(drape_with({{"steps", "5"}}), keys, quick);
   EXPECT_EQ(work, 9);

@@ -11,7 +11,7 @@
 namespace hysteron::experiments {
 namespace {
 
-Scene scene_on(const std::string& mesh, const std::string& shape) {
+Scene scene_on(const std::string& mesh, ClothOutline shape) {
   Scene scene = default_scene();
   scene.mesh = mesh;
   scene.cloth.shape = shape;
@@ -32,18 +32,18 @@ std::string words(const std::vector<ErrorRun>& error_runs) {
 }
 
 TEST(Repeats, OfARandomMeshAreFinerShorterAndOfOtherSeeds) {
-  EXPECT_EQ(words(planned_error_runs("swing", scene_on("random", "strip"), "", 3)),
+  EXPECT_EQ(words(planned_error_runs("swing", scene_on("random", ClothOutline::strip), "", 3)),
             "mesh: triangles=4000; step: step=0.005; draw-1: mesh=random seed=8; draw-2: mesh=random seed=9; "
             "draw-3: mesh=random seed=10");
 }
 
 TEST(Repeats, OfAStructuredMeshAreOfOtherFamiliesFirst) {
-  EXPECT_EQ(words(planned_error_runs("cantilever", scene_on("unionjack", "strip"), "", 2)),
+  EXPECT_EQ(words(planned_error_runs("cantilever", scene_on("unionjack", ClothOutline::strip), "", 2)),
             "mesh: triangles=4000; step: step=0.005; draw-1: mesh=equilateral; draw-2: mesh=random seed=8");
 }
 
 TEST(Repeats, OfASpecimenThatCutsItsOwnMeshHaveOtherNumbersOfTriangles) {
-  EXPECT_EQ(words(planned_error_runs("crease", scene_on("random", "strip"), "", 2)),
+  EXPECT_EQ(words(planned_error_runs("crease", scene_on("random", ClothOutline::strip), "", 2)),
             "mesh: triangles=4000; step: step=0.005; draw-1: triangles=1500; draw-2: triangles=666");
 }
 
@@ -63,13 +63,13 @@ TEST(Errors, OfACreaseInTimeAreThoseOfEachOfItsAngles) {
 }
 
 TEST(Repeats, OfADrapeGoAlongTheOtherPathToo) {
-  const Scene scene = scene_on("random", "disc");
+  const Scene scene = scene_on("random", ClothOutline::disc);
   EXPECT_EQ(words({planned_error_runs("drape", scene, "lowered", 1).back()}), "path: drape.release=dropped");
   EXPECT_EQ(words({planned_error_runs("drape", scene, "dropped", 1).back()}), "path: drape.release=lowered");
 }
 
 TEST(Repeats, AtHalfTheStepKeepAToleranceToMatch) {
-  Scene scene = scene_on("random", "disc");
+  Scene scene = scene_on("random", ClothOutline::disc);
   scene.tolerance = 8e-5;
   scene.integrator = Integrator::tr_bdf2;
   EXPECT_EQ(words({planned_error_runs("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=1e-05");
@@ -79,7 +79,7 @@ TEST(Repeats, AtHalfTheStepKeepAToleranceToMatch) {
 
 TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
   const std::vector<ErrorRun> error_runs =
-      planned_error_runs("crumple", scene_on("sheet.obj", "square"), "", 2);
+      planned_error_runs("crumple", scene_on("sheet.obj", ClothOutline::square), "", 2);
   EXPECT_EQ(words(error_runs), "mesh: cloth.subdivisions=1; step: step=0.005");
   const Metrics metrics = {{"curvature_rms_per_m", 5.0}};
   const Errors errors = estimated_errors(
@@ -97,7 +97,7 @@ ErrorRunResult bent(const std::string& name, double length) {
 }
 
 TEST(Repeats, OfEquilibriaHaveNoStep) {
-  EXPECT_EQ(words(planned_error_runs("buckle", scene_on("random", "strip"), "", 1)),
+  EXPECT_EQ(words(planned_error_runs("buckle", scene_on("random", ClothOutline::strip), "", 1)),
             "mesh: triangles=4000; draw-1: mesh=random seed=8");
   const Errors errors =
       estimated_errors("buckle", {{"critical_gamma", 8.0}}, {{{"mesh", {}}, {{"critical_gamma", 7.0}}}});

@@ -175,7 +175,7 @@ TEST(CurvatureSize, IsTheNormOfATensorAndTheMagnitudeOfAHinge) {
 TEST(UnrolledTube, IsAsWideAsItsCircumference) {
   const ClothMesh tube = make_tube(0.3, 0.05, 4000, MeshFamily::unionjack, 1);
   ClothShape shape;
-  shape.shape = "tube";
+  shape.shape = ClothOutline::tube;
   shape.radius = 0.05;
   double low = 0, high = 0;
   for (const Eigen::Vector2d& p : unrolled_tube(tube, shape))

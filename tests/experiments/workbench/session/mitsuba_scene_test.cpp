@@ -123,7 +123,7 @@ TEST(MitsubaScene, ClothHasTheColourOfThePicturesLook) {
 
 TEST(MitsubaScene, RakingLightIsThatOfThePictures) {
   auto setup = setup_with_a_ball();
-  setup.options.light = "raking";
+  setup.options.light = Lighting::raking;
   const PictureView view = picture_view(setup, {{-0.2f, -0.1f, 0}, {0.2f, 0.1f, 0.3f}}, {});
   const std::vector<double> origin = numbers_after(exported_xml(setup, {}), "\"disk\"", "origin"),
                             target = numbers_after(exported_xml(setup, {}), "\"disk\"", "target");

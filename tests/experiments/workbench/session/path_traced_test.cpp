@@ -32,7 +32,7 @@ class ClothBesideABall {
  public:
   ClothBesideABall() {
     setup_.options.size = "320x180";
-    setup_.options.quality = "figure";
+    setup_.options.quality = PictureQuality::figure;
     setup_.options.look = "clay";
     setup_.options.camera_box = {-0.1, -0.1, 0, 0.07, 0.08, 0.085};
     Obstacle ball, ground;
