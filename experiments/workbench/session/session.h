@@ -44,6 +44,7 @@ struct Snapshot {
 // last.  serialise() covers what they collect.  each_step() costs a copy of all positions a step, which is
 // noticeable on a GPU.
 struct RunPlan {
+  std::string title;                 // of the run's pictures and report: "Drape: wool, law prandtl"
   render::Box bounds;                // box framed by the pictures [m]
   bool wanders = false;              // the scene may lead the cloth out of the box, so a trial run widens it
   std::optional<float> floor;        // height of the visible ground [m]
