@@ -269,11 +269,11 @@ bool Session::simulate(const RunPlan& plan) {
   run_->progress(opening_text());
   if (plan.time_steps.empty()) note_rounded_instants();
   bounds_ = framed();
-  bool settled = run_to_end();
-  if (plan.to_rest && setup_.scene.is_implicit()) settled = find_rest();
+  settled_ = run_to_end();
+  if (plan.to_rest && setup_.scene.is_implicit()) settled_ = find_rest();
   for (const auto& observer : observers_) observer->close();
   plan_ = nullptr;
-  return settled;
+  return settled_;
 }
 
 void Session::finish(const std::string& title) {

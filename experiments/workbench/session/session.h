@@ -129,6 +129,7 @@ class Session {
   // Simulates, watches, records and draws, until the time is over or the question is settled, and then to
   // rest if the plan asks for it.  Returns true if it is settled or, then, at rest.
   bool simulate(const RunPlan& plan);
+  bool is_settled() const { return settled_; }  // what simulate() has returned
   // Writes a plot; a line below the title says that all is simulated, unless a label does.
   void plot(const std::string& name, render::Plot plot);
   // Returns the colour of the scene's law in plots: "#RRGGBB".
@@ -175,7 +176,7 @@ class Session {
   Timetable timetable_{0, 1};
   double watch_rate_ = 0;            // [1/s]
   std::vector<long> instant_steps_;  // by instant of the plan: the step that ends in it
-  bool has_begun_ = false;
+  bool has_begun_ = false, settled_ = false;
   Before recorded_, watched_;
 };
 
