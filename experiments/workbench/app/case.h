@@ -23,8 +23,9 @@ class Case {
   Case& operator=(const Case&) = delete;
   virtual ~Case() = default;
 
-  Setup setup;                   // scene as it is simulated, and options
-  std::optional<Cloth> cloth{};  // specimen, if the scene does not describe it; empty: make_cloth(scene)
+  Setup setup;                        // scene as it is simulated, and options
+  std::optional<Cloth> cloth{};       // specimen, if the scene does not describe it; empty: make_cloth(scene)
+  std::optional<CommandLine> line{};  // as the manifest records it, if other than given
 
   // Simulates what scene and cloth depend on, and changes them.  It is left out where the scene is only
   // checked or explained.

@@ -72,9 +72,6 @@ struct Experiment {
   // Returns the experiment's own keys.
   std::vector<KeyDescription> (*own_keys)() = [] { return std::vector<KeyDescription>(); };
   Setup (*defaults)() = nullptr;  // of a simulating experiment, for --help; null: they depend on the flags
-  // Returns the box framed by the pictures of that line, for runs side by side; nothing if it draws none or
-  // has flags for it.  Null if the box does not depend on the scene.
-  std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
   // Returns the box that the cloth is expected to pass through, for an experiment whose scene may lead it
   // elsewhere: a trial run widens the box for pictures, and runs side by side share it.  Null: the plan has
   // it.

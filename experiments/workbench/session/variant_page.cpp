@@ -1,4 +1,4 @@
-#include "experiments/workbench/compare/variant_page.h"
+#include "experiments/workbench/session/variant_page.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,6 +8,7 @@
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/archived_geometry.h"
+#include "experiments/workbench/session/driver.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -70,15 +71,12 @@ std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> 
 
 std::vector<KeyDescription> page_keys() { return key_descriptions(kRows); }
 
-int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
+int run_variants(const CommandLine& given, int (*once)(const CommandLine&),
                  VariantPage (*first_page)(const CommandLine&, std::vector<Variant>&)) {
   CommandLine line = given;
   SweepJobs jobs = taken_from(line);
   std::vector<Variant> variants = named_variants(line);
-  if (variants.size() == 1) {
-    once(line);
-    return 0;
-  }
+  if (variants.size() == 1) return once(line);
   VariantPage page = first_page(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
   if (page.setup.options.checkpoint > 0)
