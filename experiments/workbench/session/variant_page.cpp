@@ -14,13 +14,13 @@
 namespace hysteron::experiments {
 namespace {
 
-const KeyRow<SweepJobs> kRows[] = {
+const KeyRow<SweepJobs> kPageRows[] = {
     {"batch", at<&SweepJobs::batch>, "", between(1, kLargestBatch), "", kBatchDoc}};
 
 // Removes the page's keys from the line and returns them.
 SweepJobs taken_from(CommandLine& line) {
   SweepJobs jobs{.tolerates_failures = true};
-  for (const BoundKey& key : bind(kRows, jobs))
+  for (const BoundKey& key : bind(kPageRows, jobs))
     std::erase_if(line.flags, [&](const Flag& flag) {
       if (flag.path != key.description.path) return false;
       assign(key, parse_text(key.description, flag.text), "--" + flag.path);
@@ -69,7 +69,7 @@ std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> 
 
 }  // namespace
 
-std::vector<KeyDescription> page_keys() { return key_descriptions(kRows); }
+std::vector<KeyDescription> page_keys() { return key_descriptions(kPageRows); }
 
 int run_variants(const CommandLine& given, int (*once)(const CommandLine&),
                  VariantPage (*first_page)(const CommandLine&, std::vector<Variant>&)) {
