@@ -12,6 +12,7 @@
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/closing_summary.h"
+#include "experiments/workbench/session/driver.h"
 #include "sim/base/error.h"
 
 namespace {
@@ -56,7 +57,7 @@ int main(int count, char** words) {
     if (!line) return flushed(0);
     experiment = line->experiment;
     choose_gpu(*line);
-    const int exit_code = experiment_named(experiment).run(*line);
+    const int exit_code = run_experiment(*line);
     print_summary(*line);
     return flushed(exit_code);
   });

@@ -39,7 +39,7 @@ void bind_errors() {
 py::list experiment_options(const std::string& name) {
   py::list names;
   const experiments::Experiment& experiment = experiments::experiment_named(name);
-  if (!experiment.run) return names;
+  if (!*experiment.name) return names;
   for (const KeyDescription& key :
        experiments::experiment_options(experiment, experiments::Defaults::left_out))
     names.append(experiments::option_name(key).substr(2));

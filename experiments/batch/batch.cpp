@@ -19,6 +19,7 @@
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/session/driver.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "sim/base/error.h"
 #include "sim/time/back_end.h"
@@ -114,8 +115,7 @@ int run_batch(const CommandLine&) {
   run_batched_scenes(on_gpu, static_cast<int>(members.size()), [&](int i) {
     Member& member = members[static_cast<std::size_t>(i)];
     if (member.line)
-      member.ending = run_guarded(member.experiment,
-                                  [&] { return experiment_named(member.experiment).run(*member.line); });
+      member.ending = run_guarded(member.experiment, [&] { return run_experiment(*member.line); });
     reports.say(i, member.ending);
   });
   return 0;

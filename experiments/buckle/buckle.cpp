@@ -8,6 +8,7 @@
 
 #include "experiments/specimens/buckling.h"
 #include "experiments/specimens/clamped_mesh.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
 
@@ -90,23 +91,6 @@ Southwell measure(const Scene& scene, Buckling kind, double length, Session& ses
   return found;
 }
 
-void picture(Session& session, const BucklingStrip& strip, double reference) {
-  const Scene& scene = session.scene();
-  double last = 0;
-  RunPlan plan;
-  plan.bounds = strip_bounds(strip, scene.cloth.width, scene.cloth.position);
-  plan.columns = {"gamma [1]", "deflection [1]"};
-  const auto gamma = [&](double time) { return reference * time; };  // the reference's weight acts after 1 s
-  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    last = strip.deflection(m.x) / strip.length;
-    return {gamma(m.time), last};
-  };
-  plan.progress = [&](const Snapshot& m) {
-    return fmt::format("Gamma {:.3f}  the end has moved by {:.4f} of the length", gamma(m.time), last);
-  };
-  session.simulate(plan);
-}
-
 // Returns the columns of the Southwell plot, whose last part is a straight line in Gamma to the `power`:
 // Gamma, deflection, load and load over deflection.
 std::vector<Column> southwell_columns(const Southwell& found, int power) {
@@ -140,8 +124,8 @@ render::Series fitted(const Southwell& found, int power) {
   return series;
 }
 
-void plot(Session& session, const std::vector<Column>& columns, const Southwell& found, double reference,
-          int power) {
+void plot(Session& session, const Southwell& found, double reference, int power) {
+  const std::vector<Column> columns = southwell_columns(found, power);
   const std::vector<double>&x = columns[2].values, &y = columns[3].values;
   render::Plot southwell{"Southwell plot, law " + session.scene().law,
                          {power == 1 ? "Gamma" : "square of Gamma"},
@@ -162,31 +146,60 @@ void plot(Session& session, const std::vector<Column>& columns, const Southwell&
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 320); }
 
-int run_buckle(const CommandLine& line) {
-  B choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
-  const Buckling kind = choice.kind;
-  const double length = setup.scene.cloth.length;  // free length, which bends
-  const Scene measured = measured_scene(setup.scene, choice);
-  const double reference = reference_gamma(kind, measured);
-  const BucklingStrip pictured = buckling_strip(setup.scene, kind, length, kVisibleTilt, kPictured);
-  setup.scene = pictured.scene;
-  Session session(line, setup, pictured.cloth);
-  if (session.is_over()) return 0;
-  session.reserve({"southwell.csv"}, {"plot_southwell", "plot_deflection"});
+class BuckleCase : public Case {
+ public:
+  explicit BuckleCase(const CommandLine& line);
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
 
-  const Southwell found = measure(measured, kind, length, session);
-  const std::vector<Column> columns = southwell_columns(found, power_of_load(kind));
-  Table(columns).write(session.run().path("southwell.csv"));
-  picture(session, pictured, reference);
+ private:
+  B choice_;
+  double length_ = 0;     // free length, which bends [m]
+  Scene measured_;        // with the width of the strip whose threshold is measured
+  double reference_ = 0;  // Gamma of theory
+  BucklingStrip pictured_;
+  Southwell found_;
+  double last_ = 0;  // deflection of the pictured strip over its length
+};
+
+BuckleCase::BuckleCase(const CommandLine& line) {
+  setup = set_up(line, defaults(), bind(kRows, choice_), limit_to_quick);
+  length_ = setup.scene.cloth.length;
+  measured_ = measured_scene(setup.scene, choice_);
+  reference_ = reference_gamma(choice_.kind, measured_);
+  pictured_ = buckling_strip(setup.scene, choice_.kind, length_, kVisibleTilt, kPictured);
+  setup.scene = pictured_.scene;
+  cloth = pictured_.cloth;
+}
+
+// Measures the threshold first, on a strip of its own; the session's strip is for pictures.
+RunPlan BuckleCase::plan(Session& session) {
+  session.reserve({"southwell.csv"}, {"plot_southwell", "plot_deflection"});
+  found_ = measure(measured_, choice_.kind, length_, session);
+  Table(southwell_columns(found_, power_of_load(choice_.kind))).write(session.run().path("southwell.csv"));
+  const Scene& scene = setup.scene;
+  RunPlan plan;
+  plan.title = "Buckling, " + enum_name(choice_.kind) + ": law " + scene.law;
+  plan.bounds = strip_bounds(pictured_, scene.cloth.width, scene.cloth.position);
+  plan.columns = {"gamma [1]", "deflection [1]"};
+  const auto gamma = [this](double time) { return reference_ * time; };  // that of theory acts after 1 s
+  plan.measure = [this, gamma](const Snapshot& m) -> std::vector<double> {
+    last_ = pictured_.deflection(m.x) / pictured_.length;
+    return {gamma(m.time), last_};
+  };
+  plan.progress = [this, gamma](const Snapshot& m) {
+    return fmt::format("Gamma {:.3f}  the end has moved by {:.4f} of the length", gamma(m.time), last_);
+  };
+  return plan;
+}
+
+void BuckleCase::conclude(Session& session) {
   Run& run = session.run();
-  run.metric("critical_gamma", found.critical_gamma);
-  run.metric("reference_gamma", reference);
-  run.metric("error_percent", 100 * (found.critical_gamma / reference - 1));
-  run.metric("clamp_effect_percent", 100 * fraction_of_width(kind, measured, length));
-  if (session.pictures()) plot(session, columns, found, reference, power_of_load(kind));
-  session.finish("Buckling, " + enum_name(kind) + ": law " + setup.scene.law);
-  return 0;
+  run.metric("critical_gamma", found_.critical_gamma);
+  run.metric("reference_gamma", reference_);
+  run.metric("error_percent", 100 * (found_.critical_gamma / reference_ - 1));
+  run.metric("clamp_effect_percent", 100 * fraction_of_width(choice_.kind, measured_, length_));
+  if (session.pictures()) plot(session, found_, reference_, power_of_load(choice_.kind));
 }
 
 }  // namespace
@@ -195,7 +208,7 @@ Experiment buckle() {
   return {
       .name = "buckle",
       .question = "strip that buckles under its own weight, upright or on its edge",
-      .run = run_buckle,
+      .case_of = case_of<BuckleCase>,
       .simulates = true,
       .own_keys = own_key_descriptions<kRows>,
       .defaults = defaults,

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/session/session.h"
 
@@ -117,9 +119,22 @@ void plot(Session& session) {
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 128); }
 
-int run_cantilever(const CommandLine& line) {
+class CantileverCase : public Case {
+ public:
+  explicit CantileverCase(const CommandLine& line);
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
+
+ private:
+  double length_ = 0;  // overhanging length [m]
+  CantileverStrip strip_;
+  std::optional<Reference> reference_;
+  Drops drops_;
+};
+
+CantileverCase::CantileverCase(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Scene& scene = setup.scene;
   scene.integrator = Integrator::quasi_static;
   scene.seconds = scene.ramp + scene.unload;
@@ -132,49 +147,51 @@ int run_cantilever(const CommandLine& line) {
         choice.gamma * scene.fabric.b2 / (scene.gravity.norm() * std::pow(scene.cloth.length, 3));
   }
   check_cantilever(scene);
-  const double length = scene.cloth.length;  // overhanging length
-  const CantileverStrip strip = overhang(scene, length);
-  scene = strip.scene;
-  Session session(line, setup, strip.cloth);
-  if (session.is_over()) return 0;
-  session.reserve({}, {"plot_drop"});
+  length_ = scene.cloth.length;
+  strip_ = overhang(scene, length_);
+  scene = strip_.scene;
+  cloth = strip_.cloth;
+}
 
-  const Reference reference(scene, length);
-  const long steps_of_loading = loading(scene).steps();
-  Drops drops;
+RunPlan CantileverCase::plan(Session& session) {
+  session.reserve({}, {"plot_drop"});
+  const Scene& scene = setup.scene;
+  reference_.emplace(scene, length_);
   RunPlan plan;
-  const float l = static_cast<float>(length), width = static_cast<float>(scene.cloth.width);
+  plan.title = "Cantilever: " + scene.fabric.name + ", law " + scene.law;
+  const float l = static_cast<float>(length_), width = static_cast<float>(scene.cloth.width);
   plan.bounds = {{0, 0, -l}, {1.05f * l, width, 0.1f * l}};
   plan.columns = {"load [1]", "drop [1]", "elastica [1]"};
   plan.time_steps = uneven_steps(scene);
-  plan.each_step = [&](const Snapshot& m) {
-    drops.last = strip.free_end(m.x).y() / length;
-    if (session.simulation().steps() == steps_of_loading) drops.loaded = drops.last;
+  plan.each_step = [this, &session, steps_of_loading = loading(scene).steps()](const Snapshot& m) {
+    drops_.last = strip_.free_end(m.x).y() / length_;
+    if (session.simulation().steps() == steps_of_loading) drops_.loaded = drops_.last;
   };
-  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    return {load_at(scene, m.time), drops.last, reference.at(m.time)};
+  plan.measure = [this](const Snapshot& m) -> std::vector<double> {
+    return {load_at(setup.scene, m.time), drops_.last, reference_->at(m.time)};
   };
-  plan.progress = [&](const Snapshot& m) {
-    return fmt::format("load {:.2f}  drop {:.4f} of the length, elastica {:.4f}", load_at(scene, m.time),
-                       drops.last, reference.at(m.time));
+  plan.progress = [this](const Snapshot& m) {
+    return fmt::format("load {:.2f}  drop {:.4f} of the length, elastica {:.4f}",
+                       load_at(setup.scene, m.time), drops_.last, reference_->at(m.time));
   };
-  plan.serialise = [&](Archive& archive) { archive(drops); };
-  session.simulate(plan);
+  plan.serialise = [this](Archive& archive) { archive(drops_); };
+  return plan;
+}
 
+void CantileverCase::conclude(Session& session) {
+  const Scene& scene = setup.scene;
   Run& run = session.run();
-  run.metric("tip_drop_over_length", drops.loaded);
-  run.metric("elastica_drop_over_length", reference.loaded());
-  run.metric("error_percent", 100 * (drops.loaded / reference.loaded() - 1));
+  run.metric("tip_drop_over_length", drops_.loaded);
+  run.metric("elastica_drop_over_length", reference_->loaded());
+  run.metric("error_percent", 100 * (drops_.loaded / reference_->loaded() - 1));
   if (scene.unload > 0) {
-    run.metric("residual_drop_over_length", drops.last);
-    run.metric("elastica_residual_drop_over_length", reference.last());
+    run.metric("residual_drop_over_length", drops_.last);
+    run.metric("elastica_residual_drop_over_length", reference_->last());
   }
   const double expected = elastica_bending_length(scene);
   run.metric("bending_length_m", cloth_bending_length(scene, expected));
   run.metric("elastica_bending_length_m", expected);
   if (session.pictures()) plot(session);
-  session.finish("Cantilever: " + scene.fabric.name + ", law " + scene.law);
-  return 0;
 }
 
 }  // namespace
@@ -183,7 +200,7 @@ Experiment cantilever() {
   return {
       .name = "cantilever",
       .question = "a strip that sags, beside the elastica; bending length (ASTM D1388)",
-      .run = run_cantilever,
+      .case_of = case_of<CantileverCase>,
       .simulates = true,
       .own_keys = own_key_descriptions<kRows>,
       .defaults = defaults,

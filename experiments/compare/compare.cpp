@@ -21,6 +21,7 @@
 #include "experiments/workbench/pages/error_notes.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/archived_geometry.h"
+#include "experiments/workbench/session/driver.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 

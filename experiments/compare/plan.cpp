@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/app/scene_source.h"
-#include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 
@@ -224,12 +224,12 @@ void check_times(const std::vector<double>& times, const std::vector<ChildRun>& 
   const double last = *std::max_element(times.begin(), times.end());
   double end = 0;
   for (auto column = columns.begin(); column != columns.end() && end < last; ++column) {
-    const std::optional<Scene> scene = planned_scene(column->line);
-    if (!scene)
+    const std::unique_ptr<Case> own = experiment_named(column->line.experiment).case_of(column->line);
+    if (!own)
       throw Error::invalid_input("compare.times: " + column->name +
                                  " simulates no cloth to picture (--compare.times)")
           .with_key("compare.times", "");
-    end = std::max(end, scene->seconds);
+    end = std::max(end, own->setup.scene.seconds);
   }
   if (last <= end) return;
   throw Error::invalid_input(

@@ -9,6 +9,7 @@
 
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
+#include "experiments/workbench/session/driver.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 

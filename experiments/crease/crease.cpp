@@ -11,10 +11,11 @@
 #include "experiments/crease/protractor.h"
 #include "experiments/crease/specimen.h"
 #include "experiments/specimens/cantilever_strip.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/app/fixed_keys.h"
-#include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/session.h"
+#include "experiments/workbench/session/variant_page.h"
 #include "sim/base/archive.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -94,6 +95,7 @@ struct Recovered {
   std::optional<LawOfCrease> law;      // only for elements that are triangles
 
   double angle_at(double since) const;
+  void serialise(Archive& archive);
 };
 
 // Interpolates the opening in logarithmic time between the recorded instants; NaN before and after them.
@@ -103,6 +105,15 @@ double Recovered::angle_at(double since) const {
   if (after == seconds.end() || i == 0) return NAN;
   const double fraction = std::log(since / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
   return angle[i - 1] + fraction * (angle[i] - angle[i - 1]);
+}
+
+void Recovered::serialise(Archive& archive) {
+  archive(opening);
+  archive(force);
+  archive(time);
+  archive(seconds);
+  archive(angle);
+  if (law) law->serialise(archive);
 }
 
 // Returns the row that turns a curvature tensor (K_xx, K_yy, sqrt2 K_xy) along warp and weft into the
@@ -149,35 +160,6 @@ void read_specimen(const Crease& crease, const Snapshot& m, Simulation& simulati
   if (!let_go) return;
   recovered.seconds.push_back(m.time - crease.times.lifted);
   recovered.angle.push_back(recovered.opening);
-}
-
-RunPlan run_plan(Session& session, const Crease& crease, Recovered& recovered) {
-  RunPlan plan;
-  const float length = static_cast<float>(crease.scene.cloth.length),
-              width = static_cast<float>(crease.scene.cloth.width);
-  // A pressed specimen lies on the ground; a soft fold swings freely, below its clamp as well.
-  const bool pressed = crease.scene.obstacle.size() == 2;
-  const float low = (pressed ? 0 : -0.35f) * length;
-  plan.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
-  plan.floor = low;
-  plan.time_steps = crease.time_steps;
-  plan.columns = {"opening [degree]", "plate_force [N]"};
-  plan.watch = [&](const Snapshot& m) { read_specimen(crease, m, session.simulation(), recovered); };
-  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    return {crease.opening(m.x), plate_is_on(crease, m.time) ? crease.plate_force(m.x, m.time) : 0};
-  };
-  plan.progress = [&](const Snapshot& m) {
-    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, crease.opening(m.x));
-  };
-  plan.serialise = [&](Archive& archive) {
-    archive(recovered.opening);
-    archive(recovered.force);
-    archive(recovered.time);
-    archive(recovered.seconds);
-    archive(recovered.angle);
-    if (recovered.law) recovered.law->serialise(archive);
-  };
-  return plan;
 }
 
 // Published crease recovery angles, mean of warp and weft: Fashion and Textiles 2017, s40691-017-0104-2,
@@ -249,52 +231,115 @@ Setup set_up_crease(const CommandLine& line, C& choice) {
   return setup;
 }
 
-void crease_once(const CommandLine& line) {
-  C choice;
-  Setup setup = set_up_crease(line, choice);
-  if (choice.release == CreaseRelease::quick) let_go_quickly(setup.scene);
-  const bool pressed = choice.fold == CreaseFold::plate;
-  const double plate = !pressed ? 0.0
-                       : setup.options.explain || Run::only_checks_requests
-                           ? 2 * setup.scene.fabric.thickness  // nothing is pressed
-                           : loaded_plate(setup.scene, choice);
-  Crease crease = pressed                          ? creased(setup.scene, choice, plate)
-                  : choice.fold == CreaseFold::rod ? wrapped(setup.scene, choice)
-                                                   : pleated(setup.scene, choice);
-  if (choice.grow_after > 0)
-    crease.time_steps = growing_steps(crease.times, crease.scene.step, choice.grow_after);
-  setup.scene = crease.scene;
-  if (choice.fold != CreaseFold::pleat)  // a pleated cloth is not flat at rest
+class CreaseCase : public Case {
+ public:
+  explicit CreaseCase(const CommandLine& line);
+  void prepare() override;
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
+
+ private:
+  bool is_pressed() const { return choice_.fold == CreaseFold::plate; }
+  void fold_specimen();
+  render::Box bounds() const;
+  void note_angles(Session& session) const;
+  void draw_plots(Session& session, const CreasedStrip& strip) const;
+
+  C choice_;
+  Scene flat_;        // before the specimen is folded
+  double plate_ = 0;  // height at which the plate's underside stops [m]
+  Crease crease_;
+  Recovered recovered_;
+};
+
+CreaseCase::CreaseCase(const CommandLine& line) {
+  setup = set_up_crease(line, choice_);
+  if (choice_.release == CreaseRelease::quick) let_go_quickly(setup.scene);
+  flat_ = setup.scene;
+  if (is_pressed()) plate_ = 2 * flat_.fabric.thickness;  // until prepare() has found it
+  fold_specimen();
+  if (choice_.fold != CreaseFold::pleat)  // a pleated cloth is not flat at rest
     probe_unless_told(setup.options, {setup.scene.cloth.length / 2, setup.scene.cloth.width / 2});
-  Session session(line, setup, crease.cloth);
-  if (session.is_over()) return;
+}
+
+void CreaseCase::fold_specimen() {
+  crease_ = is_pressed()            ? creased(flat_, choice_, plate_)
+            : choice_.fold == CreaseFold::rod ? wrapped(flat_, choice_)
+                                    : pleated(flat_, choice_);
+  if (choice_.grow_after > 0)
+    crease_.time_steps = growing_steps(crease_.times, crease_.scene.step, choice_.grow_after);
+  setup.scene = crease_.scene;
+  cloth = crease_.cloth;
+}
+
+// Loads the plate to find where it stops.
+void CreaseCase::prepare() {
+  if (!is_pressed()) return;
+  plate_ = loaded_plate(flat_, choice_);
+  fold_specimen();
+}
+
+// A pressed specimen lies on the ground; a soft fold swings freely, below its clamp as well.
+render::Box CreaseCase::bounds() const {
+  const float length = static_cast<float>(crease_.scene.cloth.length),
+              width = static_cast<float>(crease_.scene.cloth.width);
+  const bool on_ground = crease_.scene.obstacle.size() == 2;
+  return {{-0.05f * length, 0, (on_ground ? 0 : -0.35f) * length},
+          {length, width, (on_ground ? 0.65f : 0.85f) * length}};
+}
+
+RunPlan CreaseCase::plan(Session& session) {
   session.reserve({"profile.csv", "limbs.csv"}, {"plot_opening", "plot_protractor"});
-  if (choice.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
-  Recovered recovered;
-  if (session.simulation().dimension() == 3 && has_strip_curve(crease.scene)) recovered.law.emplace(crease);
-  session.simulate(run_plan(session, crease, recovered));
-  Run& run = session.run();
-  run.metric("recovery_angle_deg", recovered.opening);
-  run.metric("law_recovery_angle_deg", recovered.law ? recovered.law->opening() : NAN);
-  if (!recovered.angle.empty()) run.metric("release_angle_deg", recovered.angle.front());
-  if (choice.standard != CreaseStandard::none) run.metric("recovery_angle_15_s_deg", recovered.angle_at(15));
-  if (choice.grow_after > 0) write_recovery(run, recovered);
-  run.metric("residual_curvature_per_m", largest_curvature(crease.scene, session.simulation()));
-  if (pressed) {
-    run.metric("plate_force_N", recovered.force);
-    run.metric("plate_height_m", plate);
-  }
-  const std::string what = setup.scene.fabric.name + ", law " + setup.scene.law;
+  if (choice_.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
+  if (session.simulation().dimension() == 3 && has_strip_curve(crease_.scene))
+    recovered_.law.emplace(crease_);
+  RunPlan plan;
+  plan.title = "Crease: " + setup.scene.fabric.name + ", law " + setup.scene.law;
+  plan.bounds = bounds();
+  plan.floor = plan.bounds.low.z();
+  plan.time_steps = crease_.time_steps;
+  plan.columns = {"opening [degree]", "plate_force [N]"};
+  plan.watch = [this, &session](const Snapshot& m) {
+    read_specimen(crease_, m, session.simulation(), recovered_);
+  };
+  plan.measure = [this](const Snapshot& m) -> std::vector<double> {
+    return {crease_.opening(m.x), plate_is_on(crease_, m.time) ? crease_.plate_force(m.x, m.time) : 0};
+  };
+  plan.progress = [this](const Snapshot& m) {
+    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, crease_.opening(m.x));
+  };
+  plan.serialise = [this](Archive& archive) { recovered_.serialise(archive); };
+  return plan;
+}
+
+void CreaseCase::conclude(Session& session) {
+  note_angles(session);
   const CreasedStrip strip =
-      creased_strip(setup.scene.law, session.law_color(), crease, session.simulation().positions());
-  write_profile(run, strip);
-  if (session.pictures())
-    session.plot("plot_protractor", protractor_plot("Angle between the limbs at the end, " + what, {strip}));
-  if (session.pictures())
-    draw(run, opening_plot("Opening after release, " + what, choice, crease.times.end), setup.scene.law);
-  if (session.pictures() && choice.grow_after > 0)
-    draw(run, recovery_plot("Recovery after release, " + what, choice), setup.scene.law);
-  session.finish("Crease: " + what);
+      creased_strip(setup.scene.law, session.law_color(), crease_, session.simulation().positions());
+  write_profile(session.run(), strip);
+  if (session.pictures()) draw_plots(session, strip);
+}
+
+void CreaseCase::note_angles(Session& session) const {
+  Run& run = session.run();
+  run.metric("recovery_angle_deg", recovered_.opening);
+  run.metric("law_recovery_angle_deg", recovered_.law ? recovered_.law->opening() : NAN);
+  if (!recovered_.angle.empty()) run.metric("release_angle_deg", recovered_.angle.front());
+  if (choice_.standard != CreaseStandard::none) run.metric("recovery_angle_15_s_deg", recovered_.angle_at(15));
+  if (choice_.grow_after > 0) write_recovery(run, recovered_);
+  run.metric("residual_curvature_per_m", largest_curvature(crease_.scene, session.simulation()));
+  if (!is_pressed()) return;
+  run.metric("plate_force_N", recovered_.force);
+  run.metric("plate_height_m", plate_);
+}
+
+void CreaseCase::draw_plots(Session& session, const CreasedStrip& strip) const {
+  const std::string& law = setup.scene.law;
+  const std::string what = setup.scene.fabric.name + ", law " + law;
+  session.plot("plot_protractor", protractor_plot("Angle between the limbs at the end, " + what, {strip}));
+  draw(session.run(), opening_plot("Opening after release, " + what, choice_, crease_.times.end), law);
+  if (choice_.grow_after > 0)
+    draw(session.run(), recovery_plot("Recovery after release, " + what, choice_), law);
 }
 
 VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
@@ -310,17 +355,16 @@ VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
                                 : std::vector{opening_plot("", choice, end)}};
 }
 
-int run_crease(const CommandLine& line) { return run_variants(line, crease_once, variants_page); }
-
 }  // namespace
 
 Experiment crease() {
   return {.name = "crease",
           .question = "crease recovery (ISO 2313): fold, load, release",
-          .run = run_crease,
+          .case_of = case_of<CreaseCase>,
           .simulates = true,
           .own_keys = own_key_descriptions<kRows, page_keys>,
           .defaults = defaults,
+          .page = variants_page,
           .fixed_keys = fixed_keys,
           .compared = true,
           .plot_columns = plot_protractor,

@@ -9,12 +9,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/compare/variant_page.h"
-#include "experiments/workbench/pictures/framing.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
+#include "experiments/workbench/session/metric_request.h"
 #include "experiments/workbench/session/probes.h"
-#include "experiments/workbench/session/requested_metrics.h"
 #include "experiments/workbench/session/session.h"
+#include "experiments/workbench/session/variant_page.h"
 #include "sim/base/csv.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/scene/mesh_files.h"
@@ -92,22 +92,6 @@ render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
   return box;
 }
 
-RunPlan run_plan(Session& session, const C& choice, RidgeMetrics& last) {
-  RunPlan plan;
-  plan.bounds = box_of_motion(session.scene(), session.cloth());
-  plan.wanders = true;
-  plan.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
-  plan.measure = [&](const Snapshot&) -> std::vector<double> {
-    last = measured_ridges(session, choice);
-    return {last.ridges, last.curvature, last.residual};
-  };
-  plan.progress = [&](const Snapshot& m) {
-    return fmt::format("t = {:.3f} s  {}  residual curvature {:.1f} 1/m  ridges {:.2f} m", m.time,
-                       session.scene().phase_at(m.time), last.residual, last.ridges);
-  };
-  return plan;
-}
-
 // Writes residual.csv: the share of the area by residual curvature.
 void write_histogram(Session& session) {
   const int dimension = session.simulation().dimension();
@@ -154,27 +138,45 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, kQuickFps);
 }
 
-void crumple_once(const CommandLine& line) {
-  C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+class CrumpleCase : public Case {
+ public:
+  explicit CrumpleCase(const CommandLine& line);
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
+
+ private:
+  C choice_;
+  RidgeMetrics wrinkles_;  // at the last instant of --fps
+};
+
+CrumpleCase::CrumpleCase(const CommandLine& line) {
+  setup = set_up(line, defaults(), bind(kRows, choice_), limit_to_quick);
   if (const ClothShape& cloth = setup.scene.cloth; cloth.is_rectangle() && rest_file(setup.scene).empty())
     probe_unless_told(setup.options, {cloth.length / 2, cloth.side_along_weft() / 2});
-  const std::vector<MetricRequest> requests = take_requests(setup);
-  Session session(line, setup);
-  if (session.is_over()) return;
-  RequestedMetrics requested(requests, session);
+}
+
+RunPlan CrumpleCase::plan(Session& session) {
   session.reserve({"residual.csv"},
                   {"curvature.png", "residual.png", "raking.png", "plot_residual", "plot_curvature"});
-  RidgeMetrics wrinkles;
-  RunPlan plan = run_plan(session, choice, wrinkles);
-  requested.join(plan);
-  session.simulate(plan);
-  requested.finish();
-  session.run().metric("ridge_length_m", wrinkles.ridges);
-  session.run().metric("curvature_rms_per_m", wrinkles.curvature);
+  RunPlan plan;
+  plan.title = "Crumpled: " + setup.scene.fabric.name + ", law " + setup.scene.law;
+  plan.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
+  plan.measure = [this, &session](const Snapshot&) -> std::vector<double> {
+    wrinkles_ = measured_ridges(session, choice_);
+    return {wrinkles_.ridges, wrinkles_.curvature, wrinkles_.residual};
+  };
+  plan.progress = [this](const Snapshot& m) {
+    return fmt::format("t = {:.3f} s  {}  residual curvature {:.1f} 1/m  ridges {:.2f} m", m.time,
+                       setup.scene.phase_at(m.time), wrinkles_.residual, wrinkles_.ridges);
+  };
+  return plan;
+}
+
+void CrumpleCase::conclude(Session& session) {
+  session.run().metric("ridge_length_m", wrinkles_.ridges);
+  session.run().metric("curvature_rms_per_m", wrinkles_.curvature);
   write_histogram(session);
-  if (session.pictures()) draw_all(session, wrinkles);
-  session.finish("Crumpled: " + setup.scene.fabric.name + ", law " + setup.scene.law);
+  if (session.pictures()) draw_all(session, wrinkles_);
 }
 
 VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
@@ -187,24 +189,18 @@ VariantPage variants_page(const CommandLine& line, std::vector<Variant>&) {
   return {"Crumpled", setup, to_json(bind(kRows, choice)), metrics, ridge_plots(""), "raking.png"};
 }
 
-std::optional<render::Box> framing(const CommandLine& line) {
-  C choice;
-  return planned_framing(set_up(line, defaults(), bind(kRows, choice), limit_to_quick), box_of_motion);
-}
-
-int run_crumple(const CommandLine& line) { return run_variants(line, crumple_once, variants_page); }
-
 }  // namespace
 
 Experiment crumple() {
   return {
       .name = "crumple",
       .question = "crushed, opened, spread and hung: wrinkles that stay",
-      .run = run_crumple,
+      .case_of = case_of<CrumpleCase>,
       .simulates = true,
       .own_keys = own_key_descriptions<kRows, page_keys>,
       .defaults = defaults,
-      .framing = framing,
+      .frame = box_of_motion,
+      .page = variants_page,
       .compared = true,
       .by_chance = true,
       .headlines = {.all = {{"residual_curvature_rms_per_m", "residual curvature (rms)", "1/m", "{:.4g}"},

@@ -6,6 +6,7 @@
 
 #include "experiments/drape/apparatus.h"
 #include "experiments/drape/outline_plots.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/session/session.h"
 #include "render/caption.h"
@@ -247,97 +248,122 @@ struct Draping {
   }
 };
 
-RunPlan run_plan(Session& session, const DrapeParams& choice, double radius, Draping& draping) {
-  const float r = static_cast<float>(radius);
+class DrapeCase : public Case {
+ public:
+  explicit DrapeCase(const CommandLine& line);
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
+
+ private:
+  void begin(Session& session) const;
+  void note_coefficient(Run& run, const DrapeOutlines& outlines, bool settled) const;
+  void draw(Session& session, const DrapeOutlines& outlines) const;
+
+  DrapeParams choice_;
+  std::string tilt_;   // warns of a specimen that does not lie level; "" if it does
+  double radius_ = 0;  // of the specimen [m]
+  Draping draping_;
+};
+
+DrapeCase::DrapeCase(const CommandLine& line) {
+  setup = set_up_drape(line, choice_);
+  Scene& scene = setup.scene;
+  keep_the_step(scene);
+  if (!is_given(scene, "seconds")) scene.seconds += choice_.released();
+  tilt_ = tilt_warning(scene);
+  cloth = make_cloth(scene);
+  radius_ = lay_on_pedestal(scene, choice_, *cloth).radius;
+  make_uneven(cloth->mesh, choice_, static_cast<unsigned>(scene.seed));
+}
+
+void DrapeCase::begin(Session& session) const {
+  Run& run = session.run();
+  if (!tilt_.empty()) run.warn(tilt_);
+  if (const double released = choice_.released(); setup.scene.seconds < released)
+    run.warn(shown(setup.scene, "seconds", setup.scene.seconds, "s") +
+             " ends before the specimen is released, after " + number_text(released, 4) +
+             " s: what is read is not its drape");
+  session.reserve({"outline.csv"}, {"shadow.png", "curvature.png", "friction.png", "plot_outline",
+                                    "plot_drape", "plot_energy"});
+  DrapeParams choice = choice_;
+  run.note("drape", to_json(bind(kRows, choice))["drape"]);
+  run.note("specimen_radius_m", radius_);
+}
+
+RunPlan DrapeCase::plan(Session& session) {
+  begin(session);
+  const float r = static_cast<float>(radius_);
   RunPlan plan;
+  plan.title = "Drape: " + setup.scene.fabric.name + ", law " + setup.scene.law;
   plan.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
   plan.floor = -static_cast<float>(kPedestalHeight);
   plan.columns = {"drape_coefficient [%]", "node_count"};
   const auto outline_at = [&session](const Snapshot& m) {
     return outline_from_above(session.cloth().mesh, m.x, kDirections);
   };
-  plan.watch = [&choice, &draping, radius, outline_at](const Snapshot& m) {
-    const double percent = drape_coefficient(outline_at(m).area(), choice.disc, radius);
-    draping.change = percent - draping.covered;
-    draping.covered = percent;
+  plan.watch = [this, outline_at](const Snapshot& m) {
+    const double percent = drape_coefficient(outline_at(m).area(), choice_.disc, radius_);
+    draping_.change = percent - draping_.covered;
+    draping_.covered = percent;
   };
-  plan.measure = [&choice, radius, outline_at](const Snapshot& m) -> std::vector<double> {
+  plan.measure = [this, outline_at](const Snapshot& m) -> std::vector<double> {
     const Outline outline = outline_at(m);
-    return {drape_coefficient(outline.area(), choice.disc, radius),
+    return {drape_coefficient(outline.area(), choice_.disc, radius_),
             static_cast<double>(outline.nodes(kProminence))};
   };
-  if (choice.is_relifted())
-    plan.instants = {{choice.first_rest(), [&draping, outline_at](const Snapshot& m) {
-                        draping.first_radius = outline_at(m).radius;
+  if (choice_.is_relifted())
+    plan.instants = {{choice_.first_rest(), [this, outline_at](const Snapshot& m) {
+                        draping_.first_radius = outline_at(m).radius;
                       }}};
-  plan.settled = [&choice](const Snapshot& m) {
-    return m.time > choice.released() + kFreeMotion && m.fastest < choice.still;
+  plan.settled = [this](const Snapshot& m) {
+    return m.time > choice_.released() + kFreeMotion && m.fastest < choice_.still;
   };
   plan.to_rest = true;
-  plan.wait = choice.wait;
-  plan.progress = [&draping](const Snapshot& m) {
+  plan.wait = choice_.wait;
+  plan.progress = [this](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time,
-                       draping.covered, m.fastest);
+                       draping_.covered, m.fastest);
   };
-  plan.serialise = [&draping](Archive& archive) {
-    archive(draping.covered);
-    archive(draping.first_radius);
+  plan.serialise = [this](Archive& archive) {
+    archive(draping_.covered);
+    archive(draping_.first_radius);
   };
   return plan;
 }
 
-int run_drape(const CommandLine& line) {
-  DrapeParams choice;
-  Setup setup = set_up_drape(line, choice);
-  keep_the_step(setup.scene);
-  if (!is_given(setup.scene, "seconds")) setup.scene.seconds += choice.released();
-  const std::string tilt = tilt_warning(setup.scene);
-  Cloth cloth = make_cloth(setup.scene);
-  const double radius = lay_on_pedestal(setup.scene, choice, cloth).radius;
-  make_uneven(cloth.mesh, choice, static_cast<unsigned>(setup.scene.seed));
-  Session session(line, setup, std::move(cloth));
-  if (session.is_over()) return 0;
-  if (!tilt.empty()) session.run().warn(tilt);
-  if (const double released = choice.released(); setup.scene.seconds < released)
-    session.run().warn(shown(setup.scene, "seconds", setup.scene.seconds, "s") +
-                       " ends before the specimen is released, after " + number_text(released, 4) +
-                       " s: what is read is not its drape");
-  session.reserve({"outline.csv"}, {"shadow.png", "curvature.png", "friction.png", "plot_outline",
-                                    "plot_drape", "plot_energy"});
-  session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
-  session.run().note("specimen_radius_m", radius);
-
-  Draping draping;
-  const bool settled = session.simulate(run_plan(session, choice, radius, draping));
-
-  DrapeOutlines outlines{
+void DrapeCase::conclude(Session& session) {
+  const DrapeOutlines outlines{
       outline_from_above(session.cloth().mesh, session.simulation().positions(), kDirections),
-      draping.first()};
-  const Outline& outline = outlines.last;
+      draping_.first()};
   Run& run = session.run();
-  const double percent = drape_coefficient(outline.area(), choice.disc, radius);
+  note_coefficient(run, outlines, session.is_settled());
+  write_outlines(run, outlines);
+  note_published(run, setup.scene, choice_, radius_);
+  if (session.pictures()) draw(session, outlines);
+}
+
+void DrapeCase::note_coefficient(Run& run, const DrapeOutlines& outlines, bool settled) const {
+  const Outline& outline = outlines.last;
+  const double percent = drape_coefficient(outline.area(), choice_.disc, radius_);
   check_coefficient(percent);
   run.metric("drape_coefficient_percent", percent);
   run.metric("node_count", outline.nodes(kProminence));
   run.metric("settled", settled);
-  run.metric("settling_limit_m_per_s", choice.still);
+  run.metric("settling_limit_m_per_s", choice_.still);
   // What bringing the cloth to rest has moved: what its last motion could still have changed.
-  if (setup.scene.is_implicit()) run.metric("rest_shift_percent", draping.change);
+  if (setup.scene.is_implicit()) run.metric("rest_shift_percent", draping_.change);
   if (outlines.first) run.metric("outline_overlap", overlap(*outlines.first, outline));
-  write_outlines(run, outlines);
-  note_published(run, setup.scene, choice, radius);
-  if (session.pictures()) {
-    plot_outlines(session, choice, radius, outlines);
-    plot_series(session, choice, radius);
-    const double shadow = shadow_coefficient(session, choice, radius);
-    // A shadow may leave the possible range by less than its pixels; the metric is then null.
-    run.metric("shadow_drape_coefficient_percent",
-               is_drape_coefficient(shadow) ? MetricValue(shadow) : MetricValue());
-    draw_maps(session);
-    session.pictures()->also_from({0, -0.02f, 1}, "from above, at the end");
-  }
-  session.finish("Drape: " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  return 0;
+}
+
+void DrapeCase::draw(Session& session, const DrapeOutlines& outlines) const {
+  plot_outlines(session, choice_, radius_, outlines);
+  plot_series(session, choice_, radius_);
+  const double shadow = shadow_coefficient(session, choice_, radius_);
+  // A shadow may leave the possible range by less than its pixels; the metric is then null.
+  session.run().metric("shadow_drape_coefficient_percent",
+                       is_drape_coefficient(shadow) ? MetricValue(shadow) : MetricValue());
+  draw_maps(session);
+  session.pictures()->also_from({0, -0.02f, 1}, "from above, at the end");
 }
 
 }  // namespace
@@ -345,7 +371,7 @@ int run_drape(const CommandLine& line) {
 Experiment drape() {
   return {.name = "drape",
           .question = "Cusick's drape test: a disc of cloth over a pedestal",
-          .run = run_drape,
+          .case_of = case_of<DrapeCase>,
           .simulates = true,
           .own_keys = own_key_descriptions<kRows>,
           .defaults = defaults,

@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "experiments/fold/flexing_machine.h"
 #include "experiments/fold/material.h"
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/workbench/compare/variant_page.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/session/probes.h"
+#include "experiments/workbench/session/variant_page.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
@@ -153,21 +155,6 @@ std::vector<TablePlot> fold_plots(bool law_alone, const std::string& name) {
           over_cycles("plot_2HB", width, "material.csv", "2HB", 1e3)};
 }
 
-RunPlan run_plan(const Fold& fold, FlexingMachine& folding) {
-  const float width = static_cast<float>(fold.scene.cloth.width), free = static_cast<float>(fold.free_length),
-              clamp_length = (static_cast<float>(fold.scene.cloth.length) - free) / 2;
-  RunPlan plan;
-  plan.bounds = {{-clamp_length, 0, -free}, {free + clamp_length, width, clamp_length / 2}};
-  plan.columns = FlexingMachine::columns();
-  plan.watch = [&](const Snapshot& m) { folding.watch(m); };
-  plan.watch_rate = fold.rate;
-  plan.measure = [&](const Snapshot& m) { return folding.measure(m); };
-  plan.pictured = [&](const Snapshot& m) { return folding.pictured(m.time); };
-  plan.progress = [&](const Snapshot& m) { return folding.progress(m); };
-  plan.serialise = [&](Archive& archive) { folding.serialise(archive); };
-  return plan;
-}
-
 void plot(Session& session, const FlexingMachine& folding) {
   const std::string name = what(session.scene());
   for (const TablePlot& plot : fold_plots(false, name)) draw(session.run(), plot, session.scene().law);
@@ -175,22 +162,52 @@ void plot(Session& session, const FlexingMachine& folding) {
                {"The crown, " + name, {"curvature [1/m]"}, {"moment of the law [mN]"}, folding.loops()});
 }
 
-void fold_cloth(const CommandLine& line, Request& request) {
-  const Fold fold = folded(request.setup.scene, request.choice, defaults().options.fps);
-  request.setup.scene = fold.scene;
-  request.setup.options.fps = stroke_rate(request.setup.options.fps, request.choice.period);
-  probe_unless_told(request.setup.options, {fold.scene.cloth.length / 2, fold.scene.cloth.width / 2});
-  Session session(line, request.setup, fold.cloth);
-  if (session.is_over()) return;
-  Run& run = session.run();
-  run.note("fold", request.keys["fold"]);
+class FoldCase : public Case {
+ public:
+  explicit FoldCase(Request request);
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
+
+ private:
+  C choice_;
+  Json keys_;  // the experiment's own
+  Fold fold_;
+  std::optional<FlexingMachine> machine_;
+};
+
+FoldCase::FoldCase(Request request) : choice_(request.choice), keys_(std::move(request.keys)) {
+  setup = std::move(request.setup);
+  fold_ = folded(setup.scene, choice_, defaults().options.fps);
+  setup.scene = fold_.scene;
+  cloth = fold_.cloth;
+  setup.options.fps = stroke_rate(setup.options.fps, choice_.period);
+  probe_unless_told(setup.options, {fold_.scene.cloth.length / 2, fold_.scene.cloth.width / 2});
+}
+
+RunPlan FoldCase::plan(Session& session) {
+  session.run().note("fold", keys_["fold"]);
   session.reserve({}, {"plot_recovery", "plot_2HB", "plot_loop"});
-  FlexingMachine folding(fold, session);
-  session.simulate(run_plan(fold, folding));
-  folding.finish();
-  note(run, cycle_numbers(folding.reading()));
-  if (session.pictures()) plot(session, folding);
-  session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
+  FlexingMachine& machine = machine_.emplace(fold_, session);
+  const float width = static_cast<float>(fold_.scene.cloth.width),
+              free = static_cast<float>(fold_.free_length),
+              clamp_length = (static_cast<float>(fold_.scene.cloth.length) - free) / 2;
+  RunPlan plan;
+  plan.title = "Folded " + std::to_string(choice_.cycles) + " times: " + what(fold_.scene);
+  plan.bounds = {{-clamp_length, 0, -free}, {free + clamp_length, width, clamp_length / 2}};
+  plan.columns = FlexingMachine::columns();
+  plan.watch = [&](const Snapshot& m) { machine.watch(m); };
+  plan.watch_rate = fold_.rate;
+  plan.measure = [&](const Snapshot& m) { return machine.measure(m); };
+  plan.pictured = [&](const Snapshot& m) { return machine.pictured(m.time); };
+  plan.progress = [&](const Snapshot& m) { return machine.progress(m); };
+  plan.serialise = [&](Archive& archive) { machine.serialise(archive); };
+  return plan;
+}
+
+void FoldCase::conclude(Session& session) {
+  machine_->finish();
+  note(session.run(), cycle_numbers(machine_->reading()));
+  if (session.pictures()) plot(session, *machine_);
 }
 
 void write_cycles(Run& run, const std::vector<BendingCycle>& all) {
@@ -203,22 +220,33 @@ void write_cycles(Run& run, const std::vector<BendingCycle>& all) {
   file.finish();
 }
 
-void fold_law(const CommandLine& line, const Request& request) {
-  const Scene& scene = request.setup.scene;
-  if (request.setup.options.explain) {
-    std::cout << "the law alone: no cloth, nothing on a device\n";
-    return;
-  }
-  if (request.setup.options.errors)
+// Throws for options that only the cloth has.
+void refuse_options_of_cloth(const Options& options) {
+  if (options.errors)
     throw Error::invalid_input(
         "--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
         .with_key("errors", "true");
-  if (!request.setup.options.probe.empty())
-    throw Error::invalid_input("--probe: fold.law-alone has no cloth")
-        .with_key("probe", request.setup.options.probe);
-  if (request.setup.options.checkpoint > 0 || request.setup.options.resume)
+  if (!options.probe.empty())
+    throw Error::invalid_input("--probe: fold.law-alone has no cloth").with_key("probe", options.probe);
+  if (options.checkpoint > 0 || options.resume)
     throw Error::invalid_input(
         "--checkpoint and --resume: fold.law-alone takes no checkpoints; only the cloth does");
+}
+
+std::unique_ptr<Case> cloth_case(const CommandLine& line) {
+  Request request = read(line);
+  if (!request.choice.law_alone) return std::make_unique<FoldCase>(std::move(request));
+  if (!request.setup.options.explain) refuse_options_of_cloth(request.setup.options);
+  return nullptr;
+}
+
+int fold_law(const CommandLine& line) {
+  const Request request = read(line);
+  const Scene& scene = request.setup.scene;
+  if (request.setup.options.explain) {
+    std::cout << "the law alone: no cloth, nothing on a device\n";
+    return 0;
+  }
   Json keys = to_json(scene);
   keys.update(request.keys);
   Run run(line, request.setup.options, keys);
@@ -235,14 +263,7 @@ void fold_law(const CommandLine& line, const Request& request) {
   if (!request.setup.options.no_images)
     for (const TablePlot& plot : fold_plots(true, what(scene))) draw(run, plot, scene.law);
   finish_with_report(run);
-}
-
-void fold_once(const CommandLine& line) {
-  Request request = read(line);
-  if (request.choice.law_alone)
-    fold_law(line, request);
-  else
-    fold_cloth(line, request);
+  return 0;
 }
 
 // Lists laws with fatigue twice: without it, and with it as NAME-fatigue.  If the line has a flag for it
@@ -272,17 +293,17 @@ VariantPage variants_page(const CommandLine& line, std::vector<Variant>& variant
   return page;
 }
 
-int run_fold(const CommandLine& line) { return run_variants(line, fold_once, variants_page); }
-
 }  // namespace
 
 Experiment fold() {
   return {.name = "fold",
           .question = "repeated folding (De Mattia): loops and fatigue",
-          .run = run_fold,
+          .run = fold_law,
+          .case_of = cloth_case,
           .simulates = true,
           .own_keys = own_key_descriptions<kRows, page_keys>,
           .defaults = defaults,
+          .page = variants_page,
           .fixed_keys = fixed_keys,
           .compared = true,
           .conditions =

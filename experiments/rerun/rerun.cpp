@@ -16,6 +16,7 @@
 #include "experiments/workbench/app/set_aside.h"
 #include "experiments/workbench/compare/workflow.h"
 #include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/session/driver.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
@@ -215,7 +216,7 @@ int run_rerun(const CommandLine& line) {
   later.push_back({"out", out});
   CommandLine repeated = line_that_repeats(run, later, last_text(line.flags, "no-errors", "") != "true");
   choose_gpu(repeated);
-  const int exit_code = experiment_named(repeated.experiment).run(repeated);
+  const int exit_code = run_experiment(repeated);
   say_inputs(run.manifest, out);
   say_outcome(run.manifest, out, last_text(line.flags, "quiet", "") == "true");
   return exit_code;

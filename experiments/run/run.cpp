@@ -4,11 +4,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/framing.h"
-#include "experiments/workbench/session/requested_metrics.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 #include "sim/scene/shown_key.h"
@@ -91,51 +90,39 @@ render::Box box_at_start(const Scene&, const Cloth& cloth) {
   return render::bounding_box(flat_points(cloth.start));
 }
 
-RunPlan run_plan(Session& session, RequestedMetrics& metrics) {
-  RunPlan plan;
-  plan.bounds = box_at_start(session.scene(), session.cloth());
-  plan.wanders = true;
-  metrics.join(plan);
-  plan.progress = [&](const Snapshot& m) {
-    return fmt::format("t = {:.3f} s  {}", m.time, session.scene().phase_at(m.time)) + metrics.words();
-  };
-  return plan;
-}
+class SceneCase : public Case {
+ public:
+  explicit SceneCase(const CommandLine& given) {
+    line = with_scene(given);
+    scene_ = last_text(line->flags, "scene", "");
+    setup = set_up_run(*line);
+    if (last_text(line->flags, "out", "").empty()) setup.options.out = "out/run-" + scene_stem(scene_);
+  }
+  RunPlan plan(Session& session) override {
+    const std::string name = scene_name(scene_);
+    session.run().note(kSceneName, name);
+    RunPlan plan;
+    plan.title = name + ": " + setup.scene.fabric.name + ", law " + setup.scene.law;
+    plan.progress = [this](const Snapshot& m) {
+      return fmt::format("t = {:.3f} s  {}", m.time, setup.scene.phase_at(m.time));
+    };
+    return plan;
+  }
+  void conclude(Session&) override {}  // a scene's metrics are those that it requests
 
-int run_scene(const CommandLine& given) {
-  const CommandLine line = with_scene(given);
-  const std::string scene = last_text(line.flags, "scene", "");
-  Setup setup = set_up_run(line);
-  if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + scene_stem(scene);
-  const std::vector<MetricRequest> requests = take_requests(setup);
-  if (setup.options.errors && requests.empty())
-    throw Error::invalid_input("--errors: " + scene + " has no [[metric]] whose errors could be measured")
-        .with_key("errors", "true");
-
-  Session session(line, setup);
-  if (session.is_over()) return 0;
-  RequestedMetrics metrics(requests, session);
-  const std::string name = scene_name(scene);
-  session.run().note(kSceneName, name);
-  session.simulate(run_plan(session, metrics));
-  metrics.finish();
-  session.finish(name + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  return 0;
-}
-
-std::optional<render::Box> framing(const CommandLine& line) {
-  return planned_framing(set_up_run(line), box_at_start);
-}
+ private:
+  std::string scene_;  // file, name or manifest
+};
 
 }  // namespace
 
 Experiment run_scenes() {
   return {.name = "run",
           .question = "a scene of one's own, as its file has it",
-          .run = run_scene,
+          .case_of = case_of<SceneCase>,
           .simulates = true,
           .defaults = defaults,
-          .framing = framing,
+          .frame = box_at_start,
           .positionals = "SCENE",
           .headlines = {.requested = true}};
 }

@@ -8,6 +8,7 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/swing/clamped_sheet.h"
+#include "experiments/workbench/app/case.h"
 #include "experiments/workbench/app/fixed_keys.h"
 #include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
@@ -163,46 +164,64 @@ std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
   return {};
 }
 
-int run_swing(const CommandLine& line) {
-  Setup setup = set_up(line, defaults(), {}, limit_to_quick);
-  const bool has_own_pins = !setup.scene.pin.empty();
-  std::optional<Cloth> clamped = clamp(line, setup);
+class SwingCase : public Case {
+ public:
+  explicit SwingCase(const CommandLine& line);
+  RunPlan plan(Session& session) override;
+  void conclude(Session& session) override;
+
+ private:
+  bool has_own_pins_ = false;  // the scene holds the cloth itself
+  SheetPlacement sheet_;
+  std::vector<double> times_, swing_;  // by step: time [s], the free end along the swing's direction [m]
+};
+
+SwingCase::SwingCase(const CommandLine& line) {
+  setup = set_up(line, defaults(), {}, limit_to_quick);
+  has_own_pins_ = !setup.scene.pin.empty();
+  cloth = clamp(line, setup);
   if (is_flat_rectangle(setup.scene))
     probe_unless_told(setup.options,
                       {kClampedLength + kProbed * setup.scene.cloth.length, setup.scene.cloth.width / 2});
-  Session session(line, setup, std::move(clamped));
-  if (session.is_over()) return 0;
+}
+
+RunPlan SwingCase::plan(Session& session) {
+  const Scene& scene = setup.scene;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
-  if (!has_own_pins)
-    if (const std::string warning = long_side_warning(setup.scene, session.cloth().mesh); !warning.empty())
+  if (!has_own_pins_)
+    if (const std::string warning = long_side_warning(scene, session.cloth().mesh); !warning.empty())
       session.run().warn(warning);
-  const SheetPlacement sheet = sheet_placement(setup.scene, session.cloth(), !has_own_pins);
-  const int tip = sheet.tip;
-  std::vector<double> times, swing;
+  sheet_ = sheet_placement(scene, session.cloth(), !has_own_pins_);
   RunPlan plan;
-  plan.bounds = sheet.bounds();
+  plan.title = "Swing: " + scene.fabric.name + ", law " + scene.law;
+  plan.bounds = sheet_.bounds();
   plan.columns = {"tip_x [m]", "tip_height [m]"};
-  plan.measure = [&](const Snapshot& m) -> std::vector<double> {
-    return {m.x[tip].x(), m.x[tip].z() - m.x[sheet.clamp].z()};
+  const int tip = sheet_.tip, clamp = sheet_.clamp;
+  plan.measure = [=](const Snapshot& m) -> std::vector<double> {
+    return {m.x[tip].x(), m.x[tip].z() - m.x[clamp].z()};
   };
-  plan.each_step = [&](const Snapshot& m) {
-    times.push_back(m.time);
-    swing.push_back(sheet.swing(m.x));
+  plan.each_step = [this](const Snapshot& m) {
+    times_.push_back(m.time);
+    swing_.push_back(sheet_.swing(m.x));
   };
-  plan.serialise = [&](Archive& archive) {
-    archive(times);
-    archive(swing);
+  plan.serialise = [this](Archive& archive) {
+    archive(times_);
+    archive(swing_);
   };
-  plan.progress = [&](const Snapshot& m) {
+  plan.progress = [=](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  tip at {:.4f}, {:.4f} m", m.time, m.x[tip].x(), m.x[tip].z());
   };
-  session.simulate(plan);
+  return plan;
+}
+
+void SwingCase::conclude(Session& session) {
   const Ledger ledger = session.simulation().ledger();
   Run& run = session.run();
-  const auto turns = turning_points(times, swing, kMinTurn * sheet.length);
+  const double smallest = kMinTurn * sheet_.length;
+  const auto turns = turning_points(times_, swing_, smallest);
   const std::vector<Amplitude> amplitudes =
-      turning_amplitudes(turning_points(times, swing, kMinTurn * sheet.length, kSwingRipple));
-  const Decay decay = decay_between_amplitudes(amplitudes, kSmallSwing * (sheet.length - kClampedLength));
+      turning_amplitudes(turning_points(times_, swing_, smallest, kSwingRipple));
+  const Decay decay = decay_between_amplitudes(amplitudes, kSmallSwing * (sheet_.length - kClampedLength));
   run.metric("turns", turns.size());
   const Scene& scene = setup.scene;
   if (scene.gravity.isZero(0) || scene.integrator == Integrator::quasi_static)
@@ -214,13 +233,10 @@ int run_swing(const CommandLine& line) {
   run.metric("bending_friction_J", ledger.bending_friction);
   run.metric("viscous_J", ledger.viscous);
   run.metric("integrator_J", ledger.integrator());
-  if (session.pictures()) {
-    session.pictures()->begin_with_onion_skin(kOnion);
-    plot(session);
-    plot_decay(session, amplitudes, decay);
-  }
-  session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  return 0;
+  if (!session.pictures()) return;
+  session.pictures()->begin_with_onion_skin(kOnion);
+  plot(session);
+  plot_decay(session, amplitudes, decay);
 }
 
 }  // namespace
@@ -228,7 +244,7 @@ int run_swing(const CommandLine& line) {
 Experiment swing() {
   return {.name = "swing",
           .question = "a clamped strip, released: energy lost to friction",
-          .run = run_swing,
+          .case_of = case_of<SwingCase>,
           .simulates = true,
           .defaults = defaults,
           .compared = true,

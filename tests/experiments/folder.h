@@ -11,6 +11,7 @@
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/session/driver.h"
 #include "gtest/gtest.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
@@ -41,7 +42,7 @@ inline std::string out_flag(const fs::path& out) { return " --out " + out.string
 // The exit code of an experiment with these flags, which writes into `out` without pictures and progress.
 inline int run_into(const fs::path& out, const std::string& experiment, std::vector<Flag> flags) {
   flags.insert(flags.end(), {{"out", out.string()}, {"no-images", "true"}, {"quiet", "true"}});
-  return experiment_named(experiment).run({experiment, "hysteron " + experiment, std::move(flags), {}});
+  return run_experiment({experiment, "hysteron " + experiment, std::move(flags), {}});
 }
 // Metrics of such a run, which ends well.
 inline Json metrics_with(const std::string& experiment, std::vector<Flag> flags) {

@@ -14,9 +14,12 @@
 #include "experiments/workbench/app/options.h"
 #include "sim/scene/scene_reader.h"
 
-namespace hysteron::render {
+namespace hysteron {
+struct Cloth;
+namespace render {
 struct Box;
 }
+}  // namespace hysteron
 
 namespace hysteron::experiments {
 
@@ -34,10 +37,13 @@ struct CommandLine {
 // Returns the text of the last flag of that path; `otherwise` without one.
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise);
 
+class Case;
 struct ChildRun;
 struct ComparisonPage;
 class Run;
 struct Setup;
+struct Variant;
+struct VariantPage;
 
 // A key of scenes that an experiment fixes, whatever is requested, or does not use.
 struct FixedKey {
@@ -56,15 +62,23 @@ struct KeyCondition {
 
 struct Experiment {
   const char* name;
-  const char* question;                      // one line for --help
-  int (*run)(const CommandLine&) = nullptr;  // returns the exit code
-  bool simulates = false;                    // true if it takes the keys of scenes and Options
+  const char* question;  // one line for --help
+  // Runs a line that simulates no case, and returns the exit code.  Null if every line has one.
+  int (*run)(const CommandLine&) = nullptr;
+  // Returns what a line of a simulating experiment simulates (case.h), or null for one without cloth, which
+  // is run.  Throws what the experiment refuses.
+  std::unique_ptr<Case> (*case_of)(const CommandLine&) = nullptr;
+  bool simulates = false;  // true if it takes the keys of scenes and Options
   // Returns the experiment's own keys.
   std::vector<KeyDescription> (*own_keys)() = [] { return std::vector<KeyDescription>(); };
   Setup (*defaults)() = nullptr;  // of a simulating experiment, for --help; null: they depend on the flags
-  // Returns the box framed by the pictures of that line, for runs side by side; nothing if it draws none or
-  // has flags for it.  Null if the box does not depend on the scene.
-  std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
+  // Returns the box that the cloth is expected to pass through, for an experiment whose scene may lead it
+  // elsewhere: a trial run widens the box for pictures, and runs side by side share it.  Null: the plan has
+  // it.
+  render::Box (*frame)(const Scene&, const Cloth&) = nullptr;
+  // Returns the page of a line that names several laws, fabrics or integrators (session/variant_page.h), from
+  // the line without these lists; it may change the variants.  Null: such lines are refused.
+  VariantPage (*page)(const CommandLine& first, std::vector<Variant>& variants) = nullptr;
   // Returns the keys that a simulating experiment fixes, whose flags are refused.
   std::vector<FixedKey> (*fixed_keys)() = [] { return std::vector<FixedKey>(); };
   const char* positionals = "";  // meaning of CommandLine::positionals ("DIR"); "": not allowed

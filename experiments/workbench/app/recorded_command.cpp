@@ -29,7 +29,7 @@ CommandLine recorded_line(const RecordedRun& run) {
   if (run.manifest.spec) {
     CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->positionals};
     for (const auto& [path, text] : run.manifest.spec->flags) line.flags.push_back({path, text});
-    if (!experiment_named(line.experiment).run)
+    if (!*experiment_named(line.experiment).name)
       throw Error::invalid_input(run.file.string() + ": there is no experiment " + line.experiment);
     return line;
   }

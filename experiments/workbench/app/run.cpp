@@ -54,8 +54,7 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   return manifest;
 }
 
-fs::path accepted_folder(const CommandLine& line, const Options& options) {
-  if (Run::only_checks_requests) throw RequestAccepted{};
+fs::path folder_of(const CommandLine& line, const Options& options) {
   return options.out.empty() ? "out/" + line.experiment : options.out;
 }
 
@@ -83,7 +82,7 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys)
 
 Run::Run(Manifest first, const CommandLine& line, const Options& options,
          const std::vector<std::string>& kept)
-    : folder_(accepted_folder(line, options), line),
+    : folder_(folder_of(line, options), line),
       json_(options.json),
       quiet_(options.quiet),
       manifest_(std::move(first)) {

@@ -28,10 +28,6 @@ namespace hysteron::experiments {
 std::string program_version();
 std::string program_version(const Manifest& manifest);
 
-// Thrown to end an experiment that is only asked whether it accepts a request, before it builds a cloth or
-// takes its folder; Run::only_checks_requests enables this for the thread.
-struct RequestAccepted {};
-
 // Collects a run's description and results, and writes them as OUT/manifest.json: at the start (so that an
 // unwritable folder is known before any simulation), and at the end.  A run that is destroyed without
 // finish(), because of an exception, keeps its files and a manifest with "complete": false; RunFolder decides
@@ -50,7 +46,6 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   const std::filesystem::path& folder() const { return folder_.path(); }
-  static inline thread_local bool only_checks_requests = false;
   // Returns the folder of the first run of this process, which contains those of its parts; "" if there is
   // none or its manifest goes to stdout.
   static const std::filesystem::path& first_folder() { return first_folder_; }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_files.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
@@ -100,18 +99,6 @@ Setup setup_of_file(const CommandLine& line) {
   extra.insert(extra.end(), own.keys().begin(), own.keys().end());
   apply_scene(setup, line.experiment, file, extra);
   return setup;
-}
-
-void check_request(const CommandLine& line) {
-  struct Checking {
-    Checking() { Run::only_checks_requests = true; }
-    ~Checking() { Run::only_checks_requests = false; }
-  };
-  const Checking checking;
-  try {
-    experiment_named(line.experiment).run(line);
-  } catch (const RequestAccepted&) {
-  }
 }
 
 Json requested_patch(const Json& simulated, const Json& requested) {

@@ -38,9 +38,6 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
 // the experiment's own keys are not kept.  Throws as apply_scene() does.
 Setup setup_of_file(const CommandLine& line);
 
-// Throws what the experiment of that line refuses, without building a cloth or taking its folder.
-void check_request(const CommandLine& line);
-
 // Returns the merge patch from the simulated scene to the requested one.
 Json requested_patch(const Json& simulated, const Json& requested);
 

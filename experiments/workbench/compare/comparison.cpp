@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "experiments/workbench/app/scene_source.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/key_table.h"
@@ -64,15 +63,6 @@ std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
     for (const auto& [key, value] : column.metrics())
       if (wanted(value) && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
   return keys;
-}
-
-void check_columns(const std::vector<ChildRun>& columns) {
-  for (const ChildRun& column : columns) try {
-      check_request(column.line);
-    } catch (const Error& error) {
-      const std::string message = column.name + ": " + error.what();
-      throw error.exit_code() == 2 ? Error::invalid_input(message) : Error::system(message);
-    }
 }
 
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs,

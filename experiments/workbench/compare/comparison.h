@@ -27,9 +27,6 @@ class ColumnWarnings {
   std::vector<Heard> heard_;  // in the order of arrival
 };
 
-// Throws what a column would refuse before its first step, as far as its keys determine it, with its name.
-void check_columns(const std::vector<ChildRun>& columns);
-
 // Runs the columns and reports their progress as the run's.  Warns of those of the page's `metrics` that the
 // first complete column lacks, though others may have them.  Throws what run_columns() of sweep_columns.h
 // throws.

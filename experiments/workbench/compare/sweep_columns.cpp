@@ -328,13 +328,6 @@ ChildRun child_run(const std::string& name, const CommandLine& line, const std::
   return column;
 }
 
-void explain_columns(const std::vector<ChildRun>& columns) {
-  for (const ChildRun& column : columns) {
-    std::cout << column.name << ":" << std::endl;
-    experiment_named(column.line.experiment).run(column.line);
-  }
-}
-
 std::string run_outcome(const ChildRun& column) {
   if (column.kept) return "kept";
   if (!column.stopped.empty()) return column.stopped;

@@ -33,8 +33,6 @@ struct ChildRun {
 // Returns a column with the line and its own flags, in OUT/<name>/, without what the page keeps for itself.
 ChildRun child_run(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
                    const std::filesystem::path& out);
-// Prints what each column includes and leaves out (--explain).
-void explain_columns(const std::vector<ChildRun>& columns);
 
 // Options of how the columns are run, which do not affect their results.
 struct SweepJobs {

@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "experiments/workbench/app/case.h"
+#include "experiments/workbench/pictures/framing.h"
 #include "render/camera.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
@@ -168,11 +170,12 @@ bool lists_fabrics(const CommandLine& line) {
 }
 
 std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Variant>& variants) {
-  const auto framing = experiment_named(line.experiment).framing;
-  if (!framing) return {};
+  const Experiment& experiment = experiment_named(line.experiment);
+  if (!experiment.frame) return {};
   std::optional<render::Box> box;
   for (const Variant& variant : variants) {
-    const std::optional<render::Box> one = framing(with_variant(line, variant));
+    const std::unique_ptr<Case> own = experiment.case_of(with_variant(line, variant));
+    const std::optional<render::Box> one = planned_framing(own->setup, experiment.frame);
     if (!one) return {};
     box = box ? box->merged(*one) : *one;
   }

@@ -213,6 +213,8 @@ void RequestedMetrics::join(RunPlan& plan) {
       plan.instants.push_back({metric.request().from, [this, &metric](const Snapshot& instant) {
                                  metric.begin(session_.simulation(), instant.x);
                                }});
+  if (!plan.measure)  // what it measures is all that its progress can tell
+    plan.progress = [this, own = plan.progress](const Snapshot& instant) { return own(instant) + words(); };
   plan.measure = [this, own = plan.measure](const Snapshot& instant) {
     std::vector<double> row = own ? own(instant) : std::vector<double>();
     for (const double value : values(instant)) row.push_back(value);

@@ -58,15 +58,15 @@ class RequestedMetrics {
   // outlive this object.
   RequestedMetrics(const std::vector<MetricRequest>& requests, Session& session);
 
-  // Adds the requests to the plan, which this object must outlive: columns, measures, instants, checkpoints.
+  // Adds the requests to the plan, which this object must outlive: columns, measures, instants, checkpoints
+  // and, if the experiment measures nothing itself, progress.
   void join(RunPlan& plan);
-  // Returns "  gap [m] = 0.12" for each, as last measured.
-  std::string words() const;
   // Writes metrics and plots when the run is over.
   void finish();
 
  private:
   std::vector<double> values(const Snapshot& instant);
+  std::string words() const;  // returns "  gap [m] = 0.12" for each, as last measured
   void join_cycles(RunPlan& plan);
   void write_cycles();
 

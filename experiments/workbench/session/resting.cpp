@@ -69,18 +69,18 @@ void wait_at_rest(Simulation& simulation, double seconds, double step) {
 // Searches for rest.  The result of a failed search is no state of the cloth, so the last one in motion stays
 // the run's.
 bool Session::find_rest() {
-  const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
+  const Rest rest = seek_rest(simulation_, setup_.scene.fabric.thickness);
   if (rest.failure.empty()) {
-    if (plan_->wait > 0) wait_at_rest(*simulation_, plan_->wait, setup_.scene.step);
-    const std::vector<Eigen::Vector3d> x = simulation_->positions();
-    const Snapshot instant{simulation_->time(), x, rest.moved / setup_.scene.step};
+    if (plan_->wait > 0) wait_at_rest(simulation_, plan_->wait, setup_.scene.step);
+    const std::vector<Eigen::Vector3d> x = simulation_.positions();
+    const Snapshot instant{simulation_.time(), x, rest.moved / setup_.scene.step};
     if (plan_->each_step) plan_->each_step({instant.time, x, NAN});
     watch(instant);
     record(instant, "");
     return true;
   }
-  run_->warn(fmt::format("no state of rest was found: {}; results are of the cloth in motion at t = {:.4g} s",
-                         rest.failure, simulation_->time()));
+  run_.warn(fmt::format("no state of rest was found: {}; results are of the cloth in motion at t = {:.4g} s",
+                        rest.failure, simulation_.time()));
   return false;
 }
 

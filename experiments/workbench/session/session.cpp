@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iostream>
 
 #include "experiments/workbench/app/fixed_keys.h"
-#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/framing.h"
@@ -25,13 +23,6 @@
 namespace hysteron::experiments {
 namespace {
 
-const Setup& checked(const Setup& setup) {
-  check_duration(setup.scene);
-  refuse_late_tables(setup);
-  if (Run::only_checks_requests) throw RequestAccepted{};
-  return setup;
-}
-
 // Returns the rate of watched instants [1/s], unless the experiment's plan sets another.
 double default_rate(const CommandLine& line) {
   const Experiment& experiment = experiment_named(line.experiment);
@@ -40,95 +31,33 @@ double default_rate(const CommandLine& line) {
 
 }  // namespace
 
-void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulation) {
-  std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
-            << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
-  for (const std::string& body : body_lines(scene)) std::cout << body << "\n";
-  for (const std::string& warning : cloth.warnings) std::cout << "warning: " << warning << "\n";
-  for (const std::string& warning : body_warnings(scene)) std::cout << "warning: " << warning << "\n";
-  const MethodChoice& method = simulation.method;
-  if (!method.reason.empty()) std::cout << method.reason << "\n";
-  if (method.linear_solver != Preconditioning::automatic)
-    std::cout << "linear solver " << enum_name(method.linear_solver) << (method.in_float ? " in float" : "")
-              << "\n";
-  const StepLimits limits = simulation.limits();
-  std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s";
-  if (limits.bending_step > 0)
-    std::cout << "; largest stable explicit bending step " << limits.bending_step << " s";
-  std::cout << "\n";
-  std::size_t total = 0;
-  for (const ScenePart& part : simulation.parts()) {
-    std::cout << fmt::format("{:<16} {:<3} {:12} bytes  {}\n", part.name, part.included ? "in" : "out",
-                             part.bytes, part.included ? part.kernels : part.reason);
-    total += part.bytes;
-  }
-  std::cout << "in all " << total << " bytes, " << static_cast<double>(total) / cloth.mesh.faces()
-            << " per triangle" << std::endl;
-}
-
-namespace {
-thread_local std::optional<Scene>* planned = nullptr;  // receives the result of planned_scene()
-
-struct Planning {
-  explicit Planning(std::optional<Scene>& scene) { planned = &scene; }
-  ~Planning() { planned = nullptr; }
-};
-}  // namespace
-
-std::optional<Scene> planned_scene(CommandLine line) {
-  std::optional<Scene> scene;
-  const Planning planning(scene);
-  line.flags.push_back({"explain", "true"});
-  experiment_named(line.experiment).run(line);
-  return scene;
-}
-
-Session::Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth)
-    : line_(line),
-      setup_(checked(setup)),
-      cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
-      simulation_(make_simulation(setup.scene, cloth_)) {
-  auto probes = std::make_unique<Probes>(setup.options.probe, cloth_.mesh, simulation_->dimension());
-  if (planned) {
-    *planned = setup.scene;
-    return;
-  }
-  if (setup.options.explain) {
-    explain(setup.scene, cloth_, *simulation_);
-    std::cout << probes->text() << std::flush;
-    return;
-  }
-  if (!setup.options.dump_scene.empty()) {
-    dump_scene(setup);
-    return;
-  }
-  check_reference(setup.options.reference, cloth_.mesh, setup.scene.cloth);
-  auto checkpoints = std::make_unique<Checkpoints>(line, setup, cloth_, *simulation_);
-  if (checkpoints->is_complete()) return;
-  run_ = std::make_unique<Run>(line, setup, checkpoints->archived_files());
-  run_->begun_at(begun_);
+Session::Session(const CommandLine& line, const Setup& setup, const Cloth& cloth, Simulation& simulation,
+                 const std::vector<std::string>& kept)
+    : line_(line), setup_(setup), cloth_(cloth), simulation_(simulation), run_(line, setup, kept) {
   describe_start();
+}
+
+void Session::observe(std::unique_ptr<Probes> probes, std::unique_ptr<Checkpoints> checkpoints) {
   observers_ = session_observers(*this, std::move(probes), std::move(checkpoints));
-  for (const std::string& words : ignored_key_warnings(line, setup)) run_->warn(words);
-  for (const std::string& warning : setup.unread) run_->warn(warning);
-  for (const std::string& warning : late_table_warnings(setup.scene)) run_->warn(warning);
+  for (const std::string& words : ignored_key_warnings(line_, setup_)) run_.warn(words);
+  for (const std::string& warning : setup_.unread) run_.warn(warning);
+  for (const std::string& warning : late_table_warnings(setup_.scene)) run_.warn(warning);
 }
 
 void Session::describe_start() {
-  Manifest& manifest = run_->manifest();
-  manifest.device = simulation_->device();
+  Manifest& manifest = run_.manifest();
+  manifest.device = simulation_.device();
   manifest.triangles = cloth_.mesh.faces();
   manifest.hinges = cloth_.mesh.interior_edges;
-  manifest.substeps = simulation_->limits().substeps;
-  const MethodChoice& method = simulation_->method;
+  manifest.substeps = simulation_.limits().substeps;
+  const MethodChoice& method = simulation_.method;
   if (method.linear_solver != Preconditioning::automatic)
     manifest.linear_solver = enum_name(method.linear_solver);
-  if (!method.reason.empty()) run_->progress(method.reason);
-  for (const std::string& warning : cloth_.warnings) run_->warn(warning);
-  for (const std::string& warning : body_warnings(setup_.scene)) run_->warn(warning);
+  if (!method.reason.empty()) run_.progress(method.reason);
+  for (const std::string& warning : cloth_.warnings) run_.warn(warning);
+  for (const std::string& warning : body_warnings(setup_.scene)) run_.warn(warning);
   warn_of_triangle_count();
-  for (const std::string& warning : warnings_at_start(setup_.scene, cloth_, *simulation_))
-    run_->warn(warning);
+  for (const std::string& warning : warnings_at_start(setup_.scene, cloth_, simulation_)) run_.warn(warning);
 }
 
 // Warns if the number of triangles differs from the request, except for a mesh file, and for a default
@@ -139,7 +68,7 @@ void Session::warn_of_triangle_count() {
   const Scene& requested = *setup_.requested;
   const std::string warning =
       triangle_count_warning(requested.triangles, key_origin(requested, "triangles"), cloth_.mesh.faces());
-  if (!warning.empty()) run_->warn(warning);
+  if (!warning.empty()) run_.warn(warning);
 }
 
 void Session::plot(const std::string& name, render::Plot plot) {
@@ -147,25 +76,25 @@ void Session::plot(const std::string& name, render::Plot plot) {
     return series.label.find("simulated") != series.label.npos;
   };
   if (plot.note.empty() && std::ranges::none_of(plot.series, says)) plot.note = "simulated";
-  run_->plot(name, plot);
+  run_.plot(name, plot);
 }
 
 void Session::reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn) {
-  run_->reserve(files);
-  if (!setup_.options.no_images) run_->reserve(drawn);
+  run_.reserve(files);
+  if (!setup_.options.no_images) run_.reserve(drawn);
 }
 
 bool Session::watch(const Snapshot& instant) {
   if (plan_->watch) plan_->watch(instant);
   for (const auto& observer : observers_) observer->watch(*this, instant);
   if (!plan_->settled) return false;
-  run_->metric("fastest_m_per_s", instant.fastest);
+  run_.metric("fastest_m_per_s", instant.fastest);
   return plan_->settled(instant);
 }
 
 void Session::record(const Snapshot& instant, const std::string& left) {
   for (const auto& observer : observers_) observer->record(*this, instant);
-  run_->progress(plan_->progress(instant) + left);
+  run_.progress(plan_->progress(instant) + left);
 }
 
 // Returns "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu".
@@ -173,7 +102,7 @@ std::string Session::opening_text() const {
   const Scene& scene = setup_.scene;
   return scene.fabric.name + ", law " + scene.law + ", " + number_text(cloth_.mesh.faces(), kCount) +
          " triangles, " + number_text(scene.seconds) + " s in " + number_text(timetable_.steps(), kCount) +
-         " steps on " + simulation_->device();
+         " steps on " + simulation_.device();
 }
 
 // Reports by how much instants of --fps deviate from their times.
@@ -181,21 +110,21 @@ void Session::note_rounded_instants() {
   constexpr double kNoticed = 1e-3;  // in steps
   const double fps = setup_.options.fps, step = setup_.scene.step;
   if (fps * step > 1 + kNoticed) {
-    run_->progress(fmt::format(
+    run_.progress(fmt::format(
         "fps = {:g} 1/s is more than the {:g} steps of a second: every step is recorded", fps, 1 / step));
     return;
   }
   const double shift = timetable_.largest_shift(fps);
   if (shift <= kNoticed * step) return;
-  run_->note("instants_rounded_by_s", shift);
-  run_->progress(
+  run_.note("instants_rounded_by_s", shift);
+  run_.progress(
       fmt::format("instants of fps = {:g} 1/s are recorded at the ends of steps, up to {:.2g} s "
                   "beside their times; metrics.csv has the true ones",
                   fps, shift));
 }
 
 double Session::fastest_since(Before& before, const std::vector<Eigen::Vector3d>& x) const {
-  const long now = simulation_->steps();
+  const long now = simulation_.steps();
   const double moved = before.x.empty() ? 0 : farthest_moved(x, before.x);
   const double passed = now > before.step ? timetable_.between(before.step, now) : setup_.scene.step;
   before = {now, x};
@@ -203,19 +132,19 @@ double Session::fastest_since(Before& before, const std::vector<Eigen::Vector3d>
 }
 
 void Session::go_on() {
-  const long now = simulation_->steps();
+  const long now = simulation_.steps();
   long next = plan_->each_step ? now + 1
                                : std::min(timetable_.next_instant(now, setup_.options.fps),
                                           timetable_.next_instant(now, watch_rate_));
   for (const long due : instant_steps_)
     if (due > now) next = std::min(next, due);
-  advance_along(timetable_, *simulation_, next);
+  advance_along(timetable_, simulation_, next);
 }
 
 bool Session::look(const std::string& left) {
-  const long now = simulation_->steps();
-  const double time = simulation_->time();
-  const std::vector<Eigen::Vector3d> x = simulation_->positions();
+  const long now = simulation_.steps();
+  const double time = simulation_.time();
+  const std::vector<Eigen::Vector3d> x = simulation_.positions();
   if (plan_->each_step) plan_->each_step({time, x, NAN});
   for (std::size_t i = 0; i < instant_steps_.size(); ++i)
     if (instant_steps_[i] == now) plan_->instants[i].look({time, x, NAN});
@@ -232,33 +161,36 @@ bool Session::run_to_end() {
   if (setup_.options.checkpoint > 0) interrupts.emplace();
   for (const auto& observer : observers_) observer->begin(*this);
   const auto start = std::chrono::steady_clock::now();
-  const long first_step = simulation_->steps(), steps = timetable_.steps(), left = steps - first_step;
+  const long first_step = simulation_.steps(), steps = timetable_.steps(), left = steps - first_step;
   if (!has_begun_) look("");
   has_begun_ = true;
   bool settled = false;
-  while (!settled && simulation_->steps() < steps) {
+  while (!settled && simulation_.steps() < steps) {
     for (const auto& observer : observers_) observer->step(*this);
     go_on();
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    settled = look(time_left(simulation_->steps() - first_step, left, spent, !!plan_->settled));
+    settled = look(time_left(simulation_.steps() - first_step, left, spent, !!plan_->settled));
   }
   return settled;
 }
 
 render::Box Session::framed() {
   const Options& options = setup_.options;
-  if (!plan_->wanders || !options.has_view()) return plan_->bounds;
+  const auto frame = experiment_named(line_.experiment).frame;
+  if (!frame) return plan_->bounds;
+  const render::Box known = frame(setup_.scene, cloth_);
+  if (!options.has_view()) return known;
   if (const Numbers& box = options.camera_box; !box.empty())
     return render::bounding_box(std::vector<float>(box.begin(), box.end()));
-  const auto stage = run_->stage("framing");
-  const Framing framing = scene_framing(setup_, plan_->bounds);
-  run_->progress(fmt::format("pictures frame what a run of {} triangles passes through", framing.triangles));
+  const auto stage = run_.stage("framing");
+  const Framing framing = scene_framing(setup_, known);
+  run_.progress(fmt::format("pictures frame what a run of {} triangles passes through", framing.triangles));
   if (!framing.stopped.empty())
-    run_->warn("pictures frame what a coarse run passes through, which stopped: " + framing.stopped);
+    run_.warn("pictures frame what a coarse run passes through, which stopped: " + framing.stopped);
   return framing.box;
 }
 
-bool Session::simulate(const RunPlan& plan) {
+void Session::simulate(const RunPlan& plan) {
   plan_ = &plan;
   const Scene& scene = setup_.scene;
   timetable_ =
@@ -267,23 +199,22 @@ bool Session::simulate(const RunPlan& plan) {
   instant_steps_.clear();
   for (const RunPlan::Instant& instant : plan.instants)
     instant_steps_.push_back(timetable_.first_end(instant.time));
-  run_->progress(opening_text());
+  run_.progress(opening_text());
   if (plan.time_steps.empty()) note_rounded_instants();
   bounds_ = framed();
-  bool settled = run_to_end();
-  if (plan.to_rest && setup_.scene.is_implicit()) settled = find_rest();
+  settled_ = run_to_end();
+  if (plan.to_rest && setup_.scene.is_implicit()) settled_ = find_rest();
   for (const auto& observer : observers_) observer->close();
   plan_ = nullptr;
-  return settled;
 }
 
 void Session::finish(const std::string& title) {
   for (const auto& observer : observers_) observer->finish(*this, title);
-  finish_with_report(*run_);
+  finish_with_report(run_);
 }
 
 void Session::serialise(Archive& archive) {
-  run_->serialise(archive);
+  run_.serialise(archive);
   archive(has_begun_);
   for (Before* before : {&recorded_, &watched_}) {
     archive(before->step);
@@ -293,9 +224,9 @@ void Session::serialise(Archive& archive) {
   for (const auto& observer : observers_) observer->serialise(archive);
   plan_->serialise(archive);
   std::string state;
-  if (!archive.loads()) state = simulation_->save();
+  if (!archive.loads()) state = simulation_.save();
   archive(state);
-  if (archive.loads()) simulation_->load(state);
+  if (archive.loads()) simulation_.load(state);
 }
 
 }  // namespace hysteron::experiments

@@ -1,7 +1,6 @@
 // One simulated run from set-up to manifest, which every experiment shares.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -44,8 +43,8 @@ struct Snapshot {
 // last.  serialise() covers what they collect.  each_step() costs a copy of all positions a step, which is
 // noticeable on a GPU.
 struct RunPlan {
-  render::Box bounds;                // box framed by the pictures [m]
-  bool wanders = false;              // the scene may lead the cloth out of the box, so a trial run widens it
+  std::string title;                 // of the run's pictures and report: "Drape: wool, law prandtl"
+  render::Box bounds;                // box framed by the pictures [m], unless the experiment has a `frame`
   std::optional<float> floor;        // height of the visible ground [m]
   std::vector<std::string> columns;  // the experiment's columns of metrics.csv, with units
   std::function<std::vector<double>(const Snapshot&)> measure;
@@ -94,27 +93,21 @@ using Observers = std::vector<std::unique_ptr<Observer>>;
 Observers session_observers(Session& session, std::unique_ptr<Probes> probes,
                             std::unique_ptr<Checkpoints> checkpoints);
 
-// Prints what the scene includes and leaves out, with bytes and loops (--explain).
-void explain(const Scene& scene, const Cloth& cloth, const Simulation& simulation);
-
-// Returns the scene as the experiment of that line changes it, without the run; nothing if it simulates no
-// cloth.  Throws what the run would throw before its first step.
-std::optional<Scene> planned_scene(CommandLine line);
-
+// A simulation that is recorded in a folder.
 class Session {
  public:
-  // Builds the cloth, unless the experiment brings its own, and the simulation; makes the run's folder.
-  Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth = {});
+  // Takes the run's folder, in which files of an interrupted run are `kept`.  All others outlive the session.
+  Session(const CommandLine& line, const Setup& setup, const Cloth& cloth, Simulation& simulation,
+          const std::vector<std::string>& kept);
+  // Has the run watched by the observers of every run.
+  void observe(std::unique_ptr<Probes> probes, std::unique_ptr<Checkpoints> checkpoints);
 
-  // True if there is nothing to simulate: --explain or --dump-scene, which is done already, or --resume of a
-  // complete run.
-  bool is_over() const { return !run_; }
-  Run& run() { return *run_; }
+  Run& run() { return run_; }
   const CommandLine& line() const { return line_; }
   const Setup& setup() const { return setup_; }
   const Scene& scene() const { return setup_.scene; }
   const Cloth& cloth() const { return cloth_; }
-  Simulation& simulation() { return *simulation_; }
+  Simulation& simulation() { return simulation_; }
   const RunPlan& plan() const { return *plan_; }         // only while it is simulated
   const render::Box& bounds() const { return bounds_; }  // box framed by the pictures [m]
   bool is_pictured(const Snapshot& instant) const {      // true if drawn and exported
@@ -126,8 +119,9 @@ class Session {
   // Refuses as Run::reserve() does: the experiment's own files, and those of its pictures, if it draws.
   void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
   // Simulates, watches, records and draws, until the time is over or the question is settled, and then to
-  // rest if the plan asks for it.  Returns true if it is settled or, then, at rest.
-  bool simulate(const RunPlan& plan);
+  // rest if the plan asks for it.
+  void simulate(const RunPlan& plan);
+  bool is_settled() const { return settled_; }  // then: true if it is settled or, if asked for, at rest
   // Writes a plot; a line below the title says that all is simulated, unless a label does.
   void plot(const std::string& name, render::Plot plot);
   // Returns the colour of the scene's law in plots: "#RRGGBB".
@@ -161,12 +155,11 @@ class Session {
   bool find_rest();
   std::string opening_text() const;
 
-  const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-  CommandLine line_;
-  Setup setup_;
-  Cloth cloth_;
-  std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Run> run_;  // null if there is nothing to simulate
+  const CommandLine& line_;
+  const Setup& setup_;
+  const Cloth& cloth_;
+  Simulation& simulation_;
+  Run run_;
   std::unique_ptr<Pictures> pictures_;
   Observers observers_;
   const RunPlan* plan_ = nullptr;
@@ -174,7 +167,7 @@ class Session {
   Timetable timetable_{0, 1};
   double watch_rate_ = 0;            // [1/s]
   std::vector<long> instant_steps_;  // by instant of the plan: the step that ends in it
-  bool has_begun_ = false;
+  bool has_begun_ = false, settled_ = false;
   Before recorded_, watched_;
 };
 

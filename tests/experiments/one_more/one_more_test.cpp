@@ -1,4 +1,4 @@
-// An experiment is one folder and one line: everything that names experiments knows of it by itself.
+// An experiment is one file and one line: everything that names or runs experiments knows of it by itself.
 #include <fstream>
 
 #include "tests/experiments/program.h"
@@ -35,6 +35,17 @@ TEST_F(OneMore, IsRunWithErrorsShownAndVerified) {
   const std::string page = file_content(folder_.path() / "index.html");
   EXPECT_TRUE(says(page, "cloth that nothing moves")) << "its question";
   EXPECT_TRUE(says(page, "stillness")) << "its headline";
+}
+
+TEST_F(OneMore, IsExplainedDumpedAndResumedWithoutALineOfItsOwn) {
+  said("still" + small_ + in("still"));
+  const Json first = manifest_in(folder_.path() / "still");
+  EXPECT_TRUE(says(said("still --explain --device cpu"), first["triangles"].dump() + " triangles"));
+  said("still --dump-scene " + in("still.toml"));
+  said("still --scene " + in("still.toml") + small_ + in("dumped"));
+  EXPECT_EQ(manifest_in(folder_.path() / "dumped")["state_hash"], first["state_hash"]);
+  const Outcome again = finished("still --resume --no-images --device cpu --threads 1 --out " + in("still"));
+  EXPECT_TRUE(says(again.err, in("still") + " is complete")) << again.err;
 }
 
 TEST_F(OneMore, IsComparedByItsName) {

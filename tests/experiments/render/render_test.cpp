@@ -47,7 +47,7 @@ struct Twins {
     FlagList flags = {{"out", run.string()}, {"quiet", "true"},  {"quick", "true"},
                       {"export", format},    {"seconds", "0.3"}, {"probe", "none"}};
     flags.insert(flags.end(), common.begin(), common.end());
-    experiment_named("swing").run({"swing", "hysteron swing", flags, {}});
+    run_experiment({"swing", "hysteron swing", flags, {}});
     // Swing's own strip is 90 x 30 mm
     flags = {
         {"camera.direction", "0.2 -1 0.3"},

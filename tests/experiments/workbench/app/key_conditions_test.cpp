@@ -18,7 +18,7 @@ CommandLine line_with(const std::string& experiment, const std::vector<Flag>& fl
 
 // Returns the subcommand's message to these flags.
 std::string said_to(const std::string& experiment, const std::vector<Flag>& flags) {
-  return test::refusal([&] { experiment_named(experiment).run(line_with(experiment, flags)); });
+  return test::refusal([&] { run_experiment(line_with(experiment, flags)); });
 }
 
 // The names in a condition, "crease.fold" of "crease.fold = rod and not fab".

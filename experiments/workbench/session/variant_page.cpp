@@ -1,4 +1,4 @@
-#include "experiments/workbench/compare/variant_page.h"
+#include "experiments/workbench/session/variant_page.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,18 +8,19 @@
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/archived_geometry.h"
+#include "experiments/workbench/session/driver.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
 
-const KeyRow<SweepJobs> kRows[] = {
+const KeyRow<SweepJobs> kPageRows[] = {
     {"batch", at<&SweepJobs::batch>, "", between(1, kLargestBatch), kBatchDoc}};
 
 // Removes the page's keys from the line and returns them.
 SweepJobs taken_from(CommandLine& line) {
   SweepJobs jobs{.tolerates_failures = true};
-  for (const BoundKey& key : bind(kRows, jobs))
+  for (const BoundKey& key : bind(kPageRows, jobs))
     std::erase_if(line.flags, [&](const Flag& flag) {
       if (flag.path != key.description.path) return false;
       assign(key, parse_text(key.description, flag.text), "--" + flag.path);
@@ -68,17 +69,14 @@ std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> 
 
 }  // namespace
 
-std::vector<KeyDescription> page_keys() { return key_descriptions(kRows); }
+std::vector<KeyDescription> page_keys() { return key_descriptions(kPageRows); }
 
-int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
+int run_variants(const CommandLine& given, int (*once)(const CommandLine&),
                  VariantPage (*first_page)(const CommandLine&, std::vector<Variant>&)) {
   CommandLine line = given;
   SweepJobs jobs = taken_from(line);
   std::vector<Variant> variants = named_variants(line);
-  if (variants.size() == 1) {
-    once(line);
-    return 0;
-  }
+  if (variants.size() == 1) return once(line);
   VariantPage page = first_page(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
   if (page.setup.options.checkpoint > 0)

@@ -26,7 +26,7 @@ std::vector<KeyDescription> page_keys();
 // Runs the experiment `once`, or its page if the line names several variants.  `first_page` makes it from the
 // line without lists, and may change the variants.  A column that cannot go on has its message in the table.
 // Throws Error::invalid_input and Error::system for a column that is wrong or fails.  Returns the exit code.
-int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
+int run_variants(const CommandLine& line, int (*once)(const CommandLine&),
                  VariantPage (*first_page)(const CommandLine& first, std::vector<Variant>& variants));
 
 }  // namespace hysteron::experiments
