@@ -10,6 +10,7 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
+#include "sim/scene/choice.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -46,11 +47,8 @@ Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& 
 }
 
 void check_strip(const StripShape& shape, const LawRequest& law, const KesProtocol& protocol) {
-  const auto& meshes = strip_meshes();
-  if (std::find(meshes.begin(), meshes.end(), shape.mesh) == meshes.end())
-    throw Error::invalid_input("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
-        .with_key("mesh", shape.mesh)
-        .with_experiment("kes");
+  if (const auto& meshes = strip_meshes(); !std::count(meshes.begin(), meshes.end(), shape.mesh))
+    throw not_a_choice("mesh", shape.mesh, meshes).with_experiment("kes");
   if (law.name == "grinspun-edit")
     throw Error::invalid_input(
         "grinspun-edit is tested alone (--on law): no edit is ordered on the strip's way, and without "
