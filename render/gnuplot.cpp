@@ -173,8 +173,12 @@ std::string label_text(const std::string& text) { return single_quoted(unmarked(
 
 std::string data_text(const std::string& text) { return "\"" + unmarked(text, "\\\\") + "\""; }
 
+void require_something(const std::filesystem::path& base, std::size_t count) {
+  if (count == 0) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
+}
+
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& all) {
-  if (all.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
+  require_something(base, all.size());
   for (const Series& series : all)
     if (series.x.size() != series.y.size() || series.x.empty() ||
         (!series.spread.empty() && series.spread.size() != series.y.size()))

@@ -16,6 +16,8 @@ std::string number(double value);
 std::string label_text(const std::string& text);
 std::string data_text(const std::string& text);
 
+// Throws Error::invalid_input, naming `base`, if there are no maps, panels or series to draw.
+void require_something(const std::filesystem::path& base, std::size_t count);
 // Throws Error::invalid_input, naming `base`, if there is no series, or one without as many x as y.
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& series);
 

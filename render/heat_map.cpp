@@ -111,7 +111,7 @@ std::string common_commands(const HeatMaps& page) {
 }
 
 void require_fitting(const std::filesystem::path& base, const HeatMaps& page) {
-  if (page.maps.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
+  gnuplot::require_something(base, page.maps.size());
   for (const HeatMap& map : page.maps) {
     const bool fits = map.rows.size() == page.y.ticks.size() &&
                       std::all_of(map.rows.begin(), map.rows.end(),

@@ -65,7 +65,7 @@ std::string common_commands(const Panels& grid) {
 }  // namespace
 
 void write_panels(const std::filesystem::path& base, const Panels& grid) {
-  if (grid.panels.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
+  gnuplot::require_something(base, grid.panels.size());
   for (const Panel& panel : grid.panels) gnuplot::require_drawable(base, panel.series);
   const int count = static_cast<int>(grid.panels.size()), columns = std::clamp(grid.columns, 1, count);
   const gnuplot::PanelPage page{

@@ -26,7 +26,7 @@ std::string plot_commands(const gnuplot::PanelPage& page, int index, const PageP
 }  // namespace
 
 void write_plot_page(const std::filesystem::path& base, const PlotPage& all) {
-  if (all.plots.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
+  gnuplot::require_something(base, all.plots.size());
   const int count = static_cast<int>(all.plots.size());
   const gnuplot::PanelPage page{count,  all.columns, all.plot_width, all.plot_height, kLeft,
                                 kRight, kTop,        kBottom,        kGapX,           kGapY};

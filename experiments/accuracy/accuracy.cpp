@@ -13,6 +13,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
+#include "sim/scene/choice.h"
 
 namespace hysteron::experiments {
 
@@ -70,17 +71,14 @@ std::vector<Problem> chosen_problems(const F& flags) {
                            swing_problem, crease_problem})
     all.push_back(make(effort));
   if (flags.problem == "all") return all;
-  check_listed_names("problem", flags.problem);
   std::vector<Problem> chosen;
-  for (const std::string& name : split(flags.problem)) {
+  for (const std::string& name : listed_names("problem", flags.problem)) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Problem& problem) { return problem.name == name; });
     if (found == all.end()) {
-      std::string known;
-      for (const Problem& problem : all) known += (known.empty() ? "" : ", ") + problem.name;
-      throw Error::invalid_input("problem = " + name + " is not one of: " + known)
-          .with_key("problem", name)
-          .with_experiment("accuracy");
+      std::vector<std::string> known;
+      for (const Problem& problem : all) known.push_back(problem.name);
+      throw not_a_choice("problem", name, known).with_experiment("accuracy");
     }
     chosen.push_back(*found);
   }

@@ -13,6 +13,7 @@
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "sim/mesh/file_extension.h"
 
 namespace hysteron::experiments {
@@ -284,8 +285,8 @@ int run_diff(const CommandLine& line) {
   require_own_junit(flags.junit);
   if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
   if (!fs::is_directory(a) && !fs::is_directory(b)) return diff_pictures(a, b, flags);
-  for (const fs::path& path : {a, b})
-    if (!fs::exists(path)) throw Error::invalid_input("there is no file or folder " + path.string());
+  check_there(a);
+  check_there(b);
   if (fs::is_directory(a) != fs::is_directory(b))
     throw Error::invalid_input((fs::is_directory(a) ? a : b).string() + " is a folder and " +
                                (fs::is_directory(a) ? b : a).string() +

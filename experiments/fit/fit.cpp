@@ -110,14 +110,6 @@ Keys bind_flags(FitFlags& flags) {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-std::vector<std::string> requested_laws(const std::string& text) {
-  std::vector<std::string> laws;
-  for (const std::string& word : listed(text, law_names()))
-    if (!word.empty() && !std::count(laws.begin(), laws.end(), word)) laws.push_back(word);
-  if (laws.empty()) throw Error::invalid_input("law = \"\" must name a law (--law)").with_key("law", "");
-  return laws;
-}
-
 // The result of a fit, with the kind of data it is from.
 struct Answer {
   std::vector<Identification> fits;  // by residual, the best first
@@ -151,7 +143,7 @@ Answer from_loop(const FitFlags& flags) {
                                                            : read_series(flags.loop, flags.ripple, "fit");
   Answer answer{{}, series.name};
   std::vector<LawRequest> laws;
-  for (const std::string& name : requested_laws(flags.law)) {
+  for (const std::string& name : listed_names("law", flags.law, law_names())) {
     laws.push_back({name, {}, {}});
     for (const auto& [parameter, value] : flags.param) laws.back().parameters[parameter] = value;
     CurveQuestion question;

@@ -77,7 +77,7 @@ Keys option_keys(KesFlags& flags) {
 std::vector<std::string> chosen_laws(const std::string& list, bool on_strip) {
   std::vector<std::string> every = law_names();
   if (on_strip) std::erase(every, "grinspun-edit");
-  return listed(list, every);
+  return listed_names("law", list, every);
 }
 
 // Returns the parameters that this law accepts; of several laws each takes its own, and one that no law has

@@ -10,6 +10,7 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
+#include "sim/scene/choice.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -47,10 +48,7 @@ Scene strip_scene(const StripShape& shape, const LawRequest& law, const Fabric& 
 
 void check_strip(const StripShape& shape, const LawRequest& law, const KesProtocol& protocol) {
   if (!value_if_named<MeshFamily>(shape.mesh))
-    throw Error::invalid_input("mesh = " + shape.mesh +
-                               " of a strip is not one of: " + join(every_name<MeshFamily>(), ", "))
-        .with_key("mesh", shape.mesh)
-        .with_experiment("kes");
+    throw not_a_choice("mesh", shape.mesh, every_name<MeshFamily>()).with_experiment("kes");
   if (law.name == "grinspun-edit")
     throw Error::invalid_input(
         "grinspun-edit is tested alone (--on law): no edit is ordered on the strip's way, and without "

@@ -12,6 +12,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
+#include "sim/base/rising_time.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/bending/laws/recovery.h"
 #include "sim/bending/laws/unused_parameters.h"
@@ -84,16 +85,6 @@ void check_curve(const VirginCurve& curve) {
 // Returns a column's numbers, or nothing if the table lacks the column.
 std::vector<double> metric_values(const Table& table, const std::string& column) {
   return table.find(column) ? table.numbers(column) : std::vector<double>{};
-}
-
-void check_time(const Table& table) {
-  const std::vector<double> time = metric_values(table, kTime);
-  for (size_t row = 1; row < time.size(); ++row) {
-    if (time[row] < time[row - 1]) {
-      throw table.refusal(row, "time = " + number_text(time[row], 6, "s") + " must be >= " +
-                                   number_text(time[row - 1], 6, "s") + ", the time of the row before");
-    }
-  }
 }
 
 void check_edit(const Table& table) {
@@ -290,7 +281,7 @@ int run_law_command(const CommandLine& line) {
   const LawRequest request{flags.law, flags.curve, flags.param};
   const Table table = read_csv(flags.in, {kCurvature}, {kTime, kEdit}, "law");
   check_curvature(table);
-  check_time(table);
+  check_time_rises(table, metric_values(table, kTime));
   check_edit(table);
   check_time_passes(table, request);
   warn(time_warning(table, request));

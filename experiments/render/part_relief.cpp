@@ -17,6 +17,7 @@
 #include "render/local_deviation.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/scene/choice.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/cycles.h"
 
@@ -39,9 +40,9 @@ MetricRequest request_named(const std::string& name, const fs::path& manifest, c
     if (request.name == name) return request;
     names.push_back(request.name);
   }
-  throw refusal(name, names.empty() ? "must be a [[metric]] of the run's scene that has a part, of which " +
-                                          manifest.string() + " has none"
-                                    : "must be " + join(names, " | ") + suggestion(name, names));
+  if (!names.empty()) throw not_a_choice("render.part", name, names);
+  throw refusal(name, "must be a [[metric]] of the run's scene that has a part, of which " +
+                          manifest.string() + " has none");
 }
 
 // Returns for each triangle whether it belongs to the part.

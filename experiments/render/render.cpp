@@ -23,9 +23,11 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
+#include "sim/base/whole_file.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/mesh/mesh_sequence.h"
 #include "sim/mesh/topology.h"
+#include "sim/scene/choice.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -171,8 +173,11 @@ std::vector<Column> rendered_columns(const F& flags, const std::vector<std::stri
 }
 
 Surface moving_obstacle(const F& flags, const FileAxes& axes) {
-  if (!std::filesystem::exists(flags.body))
-    throw Error::invalid_input("no such file or folder: " + flags.body).with_key("render.body", flags.body);
+  try {
+    check_there(flags.body);
+  } catch (const Error& error) {
+    throw error.with_key("render.body", flags.body);
+  }
   return read_frame(flags.body, axes);
 }
 
@@ -389,7 +394,7 @@ class FramesAndSheet {
 void check_look(const std::string& look) {
   static const std::vector<std::string> kLooks = {"cloth",     "grid",      "clay",
                                                   "curvature", "wireframe", "silhouette"};
-  if (!std::count(kLooks.begin(), kLooks.end(), look)) throw refusal("look", look, join(kLooks, " | "));
+  check_choice("look", look, kLooks);
 }
 
 // Draws a folder again from the meshes within, if it keeps what its sheet was drawn from in a folder per

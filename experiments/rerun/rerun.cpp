@@ -19,6 +19,7 @@
 #include "experiments/workbench/session/driver.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -110,7 +111,7 @@ std::vector<fs::path> manifests_below(const fs::path& folder) {
       found.insert(path);
     }
   }
-  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw unreadable(folder, failure);
   if (found.empty()) throw Error::invalid_input("there is no manifest in " + folder.string() + " or below");
   return {found.begin(), found.end()};
 }

@@ -20,6 +20,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/base/parallel.h"
+#include "sim/scene/choice.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
@@ -67,14 +68,8 @@ int thread_choice(const F& flags) {
 // Returns the listed ones of the known names, each once, or all of them.
 std::vector<std::string> chosen_names(const std::string& key, const std::string& list,
                                       const std::vector<std::string>& known) {
-  if (list == "all") return known;
-  check_listed_names(key, list);
-  std::vector<std::string> names = split(list);
-  for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error::invalid_input(key + " = " + list + ": " + name + " must be of " + join(known, ", ") +
-                                 ", or all alone (--" + key + ")")
-          .with_key(key, list);
+  std::vector<std::string> names = listed_names(key, list, known);
+  for (const std::string& name : names) check_choice(key, name, known);
   return names;
 }
 
@@ -290,8 +285,7 @@ void check_limit_steps(double steps) {
 
 // Returns the names of the requested sweeps; `all` stands alone.
 std::vector<std::string> named_parts(const std::string& sweep) {
-  check_listed_names("sweep", sweep);
-  std::vector<std::string> names = split(sweep);
+  std::vector<std::string> names = listed_names("sweep", sweep);
   if (names.size() > 1 && std::count(names.begin(), names.end(), "all") > 0)
     throw Error::invalid_input("sweep = " + sweep + ": all stands alone (--sweep)").with_key("sweep", sweep);
   return names;

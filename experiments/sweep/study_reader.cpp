@@ -14,6 +14,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/scene/assets.h"
+#include "sim/scene/choice.h"
 #include "sim/scene/toml_file.h"
 
 namespace hysteron::experiments {
@@ -177,9 +178,7 @@ class StudyFile {
     for (const Experiment& e : experiments())
       if (can_be_repeated(e)) known.push_back(e.name);
     if (!std::count(known.begin(), known.end(), study_.experiment))
-      throw refusal(*root.find("experiment"),
-                    "experiment = " + study_.experiment + " must be " + join(known, " | "))
-          .with_key("experiment", study_.experiment);
+      throw not_a_choice("experiment", study_.experiment, known, at(*root.find("experiment")));
     for (const KeyDescription& key :
          experiment_options(experiment_named(study_.experiment), Defaults::left_out))
       keys_.push_back({key, Field{}});
@@ -205,7 +204,7 @@ class StudyFile {
     if (key == "scene") find_asset("scenes", value, key + ", " + at(node));
     const std::vector<std::string> laws = law_names();
     if (key == "law" && !std::count(laws.begin(), laws.end(), value))
-      throw refusal(node, "law = " + value + " must be " + join(laws, " | ")).with_key(key, value);
+      throw not_a_choice(key, value, laws, at(node));
   }
 
   void read_scene(const std::string& prefix, const ValueTree& of) {

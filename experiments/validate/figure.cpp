@@ -172,8 +172,11 @@ std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& s
   return drapes;
 }
 
-render::PlotPage validation_page(const fs::path& recorded) {
-  const std::vector<PredictedDrape> drapes = read_drapes(recorded / kDrapes, recorded / kSpread);
+std::vector<PredictedDrape> recorded_drapes(const fs::path& recorded) {
+  return read_drapes(recorded / kDrapes, recorded / kSpread);
+}
+
+render::PlotPage validation_page(const fs::path& recorded, const std::vector<PredictedDrape>& drapes) {
   return {"From the raw loop to decay, drape and folds",
           "friction of the chapter's form, fitted on one loop of a knit; B and 2HB of each fabric",
           {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),
@@ -190,11 +193,12 @@ void check_recorded(const fs::path& recorded) {
 }
 
 void draw_recorded(const fs::path& recorded, Run& run) {
-  const render::PlotPage page = validation_page(recorded);
+  const std::vector<PredictedDrape> drapes = recorded_drapes(recorded);
+  const render::PlotPage page = validation_page(recorded, drapes);
   run.plot("plot_validation", page, render::write_plot_page);
   compare_folds(run, read_counted(recorded / kFolds), true);
   EffectsByFabric effects;
-  for (const PredictedDrape& drape : read_drapes(recorded / kDrapes, recorded / kSpread))
+  for (const PredictedDrape& drape : drapes)
     effects.emplace_back(drape.fabric,
                          effects_of_spread(read_table(recorded / kSpread / drape.fabric / "spread.csv"),
                                            read_fabric(drape.fabric, "recorded")));

@@ -21,13 +21,16 @@ struct PredictedDrape {
 // Reads the means of a study and, for each of its fabrics, FABRIC/predictions.csv in the folder `spread`.
 std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
                                         const std::filesystem::path& spread);
+// Reads those of a folder of recorded results.
+std::vector<PredictedDrape> recorded_drapes(const std::filesystem::path& recorded);
 
 // Returns a fabric's colour in all plots, which colour-blind eyes can distinguish (Okabe & Ito 2008).
 std::string fabric_color(std::size_t fabric);
 
 // Draws loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::system,
 // Error::invalid_input if one of their files is missing or has another format.
-render::PlotPage validation_page(const std::filesystem::path& recorded);
+render::PlotPage validation_page(const std::filesystem::path& recorded,
+                                 const std::vector<PredictedDrape>& drapes);
 
 // Throws Error::invalid_input, naming the first of these files that is missing.
 void check_recorded(const std::filesystem::path& recorded);

@@ -13,6 +13,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
+#include "sim/scene/choice.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -42,9 +43,8 @@ Keys option_keys(F& flags) { return with_output_options(bind(kRows, flags), flag
 
 // Throws if two fabrics have one name, under which their drapes would be stored.
 void check_fabrics(const std::string& list) {
-  check_listed_names("fabrics", list);
   std::map<std::string, std::string> files;
-  for (const std::string& given : split(list)) {
+  for (const std::string& given : listed_names("fabrics", list)) {
     const std::string name = read_fabric(given, "--fabrics").fabric.name;
     if (const auto [other, is_new] = files.emplace(name, given); !is_new)
       throw Error::invalid_input("fabrics = " + list + ": " + other->second + " and " + given +
@@ -55,11 +55,7 @@ void check_fabrics(const std::string& list) {
 
 void check_parts(const F& flags) {
   static const std::vector<std::string> kParts = {"spread", "budget", "figure"};
-  for (const std::string& part : split(flags.parts))
-    if (!std::count(kParts.begin(), kParts.end(), part))
-      throw Error::invalid_input("parts = " + part + " must be " + join(kParts, " | "))
-          .with_key("parts", part);
-  check_listed_names("parts", flags.parts);
+  for (const std::string& part : listed_names("parts", flags.parts)) check_choice("parts", part, kParts);
   if (split(flags.law).size() != 1)
     throw Error::invalid_input("laws = " + flags.law + " must be one law").with_key("laws", flags.law);
 }

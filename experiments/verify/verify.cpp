@@ -16,6 +16,7 @@
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/junit.h"
 #include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -70,7 +71,7 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
     if (const fs::path inner = entry.path().parent_path();
         entry.path().filename() == "manifest.json" && (inner == folder || !is_set_aside(inner)))
       found.insert(inner);
-  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw unreadable(folder, failure);
   if (found.empty())
     throw Error::invalid_input("there is no manifest.json in " + folder.string() + " or below");
   return {found.begin(), found.end()};

@@ -400,9 +400,7 @@ Table table_in(const std::string& bytes, const std::string& file) {
   return table;
 }
 
-Table read_table(const std::filesystem::path& csv) {
-  return table_in(whole_file(csv, "cannot read " + csv.string()), csv.string());
-}
+Table read_table(const std::filesystem::path& csv) { return table_in(whole_file(csv), csv.string()); }
 
 Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
                const std::vector<std::string>& optional, const std::string& reader) {

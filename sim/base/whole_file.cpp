@@ -8,7 +8,6 @@
 #include <cstring>
 #include <memory>
 
-#include "sim/base/error.h"
 #include "sim/base/job.h"
 
 namespace hysteron {
@@ -55,12 +54,24 @@ std::string whole_file(const std::filesystem::path& file, const std::string& att
   return bytes;
 }
 
+std::string whole_file(const std::filesystem::path& file) {
+  return whole_file(file, "cannot read " + file.string());
+}
+
 std::string file_named(const std::filesystem::path& file, const std::string& attempt) {
   try {
     return whole_file(file, attempt);
   } catch (const Error& error) {
     throw Error::invalid_input(error.what());
   }
+}
+
+void check_there(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw Error::invalid_input("no such file or folder: " + path.string());
+}
+
+Error unreadable(const std::filesystem::path& folder, const std::error_code& reason) {
+  return Error::system("cannot read the folder " + folder.string() + ": " + reason.message());
 }
 
 }  // namespace hysteron

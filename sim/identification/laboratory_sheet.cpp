@@ -218,14 +218,6 @@ class SheetReader {
     }
   }
 
-  double toml_number(const ValueTree& node, const std::string& place) const {
-    const auto* integer = std::get_if<std::int64_t>(&node.value);
-    const auto* real = std::get_if<double>(&node.value);
-    if (node.kind != ValueTree::Kind::value || (!integer && !real))
-      throw refusal(node.key + " must be a number", place);
-    return integer ? static_cast<double>(*integer) : *real;
-  }
-
   void read_toml_rows() {
     const ValueTree root = read_toml(file_.string());
     for (const ValueTree& node : root.children) {
@@ -250,8 +242,9 @@ class SheetReader {
     }
     const double factor = unit_of(quantity, row.unit, place);
     const auto take_from = [&](int column, const ValueTree& from) {
-      const double printed = toml_number(from, place);
-      take(row, column, quantity, factor * printed, number_text(printed));
+      const std::optional<double> printed = from.number();
+      if (!printed) throw refusal(from.key + " must be a number", place);
+      take(row, column, quantity, factor * *printed, number_text(*printed));
     };
     if (node.kind == ValueTree::Kind::value) take_from(2, node);
     for (const ValueTree& child : node.children) {

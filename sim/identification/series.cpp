@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/base/plain_text.h"
+#include "sim/base/rising_time.h"
 #include "sim/identification/identification.h"
 #include "sim/reference/tester_table.h"
 #include "sim/scene/fabric_reader.h"
@@ -205,13 +206,9 @@ class CurveFile {
       throw refusal("time " + (unit.empty() ? "names no unit" : "is in " + unit) +
                     " and must be in s, 'time [s]'");
     const std::vector<double> time = numbers(column, 1);
-    std::vector<double> seconds;
-    for (std::size_t i = 0; i < time.size(); ++i) {
-      seconds.push_back(i == 0 ? 0 : time[i] - time[i - 1]);
-      if (seconds.back() >= 0) continue;
-      throw table_.refusal(i, "time = " + number_text(time[i]) + " s must be >= " + number_text(time[i - 1]) +
-                                  " s, the time of the row before");
-    }
+    check_time_rises(table_, time);
+    std::vector<double> seconds(time.size(), 0);
+    for (std::size_t i = 1; i < time.size(); ++i) seconds[i] = time[i] - time[i - 1];
     return seconds;
   }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "sim/mesh/file_extension.h"
 
 namespace hysteron {
@@ -139,7 +140,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
     if (is_mesh(entry->path()) && !entry->is_directory()) files.push_back(entry->path());
-  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw unreadable(folder, failure);
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
@@ -227,7 +228,7 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) 
   std::ptrdiff_t loose = -1;  // index of the sequence of single files
   for (const std::string& word : words) {
     const fs::path path(word);
-    if (!fs::exists(path)) throw Error::invalid_input("no such file or folder: " + word);
+    check_there(path);
     if (fs::is_directory(path)) {
       sequences.push_back(folder_sequence(path));
       continue;

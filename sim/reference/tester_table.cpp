@@ -44,7 +44,7 @@ std::size_t begin_of_head(const std::string& text, bool comments,
 Table read_tester_table(const std::filesystem::path& file,
                         const std::function<bool(const std::string& field)>& is_of_head,
                         const std::string& wanted, const std::string& reader) {
-  const std::string text = plain_text(whole_file(file, "cannot read " + file.string()));
+  const std::string text = plain_text(whole_file(file));
   const std::string name = file.filename().string();
   std::size_t head = begin_of_head(text, false, is_of_head);
   if (head == text.npos) head = begin_of_head(text, true, is_of_head);

@@ -123,10 +123,10 @@ void check_numbers_of_stops(const Scene& scene) {
   const auto check = [&](const std::string& key, double value, double must, const std::string& unit) {
     if (std::abs(value - must) <= kDigits * must) return;
     const std::string stops = "fabric.bending.stops.thresholds";
-    throw Error::invalid_input(shown(scene, key, value, unit) + " must be " + number_text(must, 6) + " " +
-                               unit + ", as fabric.bending.stops say (" + key_origin(scene, stops) +
-                               "): leave b1 and k0 out, which then follow from the stops, or the stops")
-        .with_key(key, number_text(value));
+    throw refused_value(scene, key, value, unit,
+                        "must be " + number_text(must, 6, unit) + ", as fabric.bending.stops say (" +
+                            key_origin(scene, stops) +
+                            "): leave b1 and k0 out, which then follow from the stops, or the stops");
   };
   check("fabric.b1", scene.fabric.b1, follows.b1, "N m");
   check("fabric.k0", scene.fabric.k0, follows.k0, "1/m");
@@ -139,9 +139,7 @@ void check_growth(const Scene& scene) {
   const double growth = scene.fabric.in_plane.shear_growth, shear = scene.fabric.shear;
   if (growth == 0) return;
   const std::string key = "fabric.membrane.stops.shear.growth", table = "fabric.membrane.stops.shear.";
-  const auto refuse = [&](const std::string& what) {
-    throw Error::invalid_input(shown(scene, key, growth, "") + " " + what).with_key(key, number_text(growth));
-  };
+  const auto refuse = [&](const std::string& what) { throw refused_value(scene, key, growth, "", what); };
   if (stops.empty()) refuse("needs " + table + "thresholds and stiffnesses beside it, which it raises");
   if (growth * stops.thresholds.back() >= 1)
     refuse("must be < " + number_text(1 / stops.thresholds.back(), 4) + ", 1 over the largest of " + table +

@@ -69,23 +69,18 @@ struct Reader {
   }
 
   double number(const ValueTree& table, const std::string& name) const {
-    const ValueTree& node = required(table, name);
-    const auto* integer = std::get_if<std::int64_t>(&node.value);
-    const auto* real = std::get_if<double>(&node.value);
-    if (!integer && !real) throw refusal(table.key + "." + name + " must be a number", node);
-    const double x = integer ? static_cast<double>(*integer) : *real;
-    if (!std::isfinite(x)) throw refusal(table.key + "." + name + " must be finite", node);
-    return x;
+    return finite(required(table, name), table.key + "." + name, "a number");
   }
 
   double plain_number(const ValueTree& node) const {
-    const auto* integer = std::get_if<std::int64_t>(&node.value);
-    const auto* real = std::get_if<double>(&node.value);
-    if (node.kind != ValueTree::Kind::value || (!integer && !real))
-      throw refusal(node.key + " must be a number or a table {value, unit, source, confidence}", node);
-    const double x = integer ? static_cast<double>(*integer) : *real;
-    if (!std::isfinite(x)) throw refusal(node.key + " must be finite", node);
-    return x;
+    return finite(node, node.key, "a number or a table {value, unit, source, confidence}");
+  }
+
+  double finite(const ValueTree& node, const std::string& key, const std::string& must) const {
+    const std::optional<double> x = node.number();
+    if (!x) throw refusal(key + " must be " + must, node);
+    if (!std::isfinite(*x)) throw refusal(key + " must be finite", node);
+    return *x;
   }
 
   // Returns the text that a name stands for in [sources]; other names stand for themselves.

@@ -36,7 +36,7 @@ bool is_flag(const std::string& origin) { return origin.starts_with("--"); }
 // Refuses a number of KES-FB2's friction that says nothing without another one.
 [[noreturn]] void refuse_kes_number(const Scene& scene, const std::string& key, double value,
                                     const std::string& unit, const std::string& what) {
-  throw Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
+  throw refused_value(scene, key, value, unit, what);
 }
 
 // Requires both B and 2HB, or neither, where no shape of friction stands beside them.
@@ -89,7 +89,7 @@ void check_faces(const Scene& scene) {
   const bool bends = faces.bending != 1;
   const std::string key = bends ? "fabric.back-bending" : "fabric.back-friction";
   const auto refuse = [&](const std::string& of, double value, const std::string& what) {
-    throw Error::invalid_input(shown(scene, of, value, "") + " " + what).with_key(of, number_text(value));
+    throw refused_value(scene, of, value, "", what);
   };
   const double value = bends ? faces.bending : faces.friction;
   if (f.bending.set.on())
@@ -112,9 +112,7 @@ void check_faces(const Scene& scene) {
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
   const auto refuse = [&](const std::string& key, double value, const std::string& unit,
-                          const std::string& what) {
-    throw Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
-  };
+                          const std::string& what) { throw refused_value(scene, key, value, unit, what); };
   check_kes_shape(scene);
   if (f.kes.on() && !(f.b2 > 0))
     refuse("fabric.stops-median", f.kes.shape.median, "1/m",

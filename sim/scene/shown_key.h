@@ -39,4 +39,10 @@ inline std::string shown(const Scene& scene, const std::string& key, double valu
   return shown(scene, key, number_text(value), unit);
 }
 
+// Returns the refusal of a key's number: "fabric.k0 = 0 1/m (--fabric.k0) must be ...".
+inline Error refused_value(const Scene& scene, const std::string& key, double value, const std::string& unit,
+                           const std::string& what) {
+  return Error::invalid_input(shown(scene, key, value, unit) + " " + what).with_key(key, number_text(value));
+}
+
 }  // namespace hysteron

@@ -55,6 +55,13 @@ const ValueTree* ValueTree::find(const std::string& name) const {
   return nullptr;
 }
 
+std::optional<double> ValueTree::number() const {
+  if (kind != Kind::value) return {};
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  return {};
+}
+
 ValueTree json_tree(const Json& json, const std::string& file, Lists lists, const std::string& key) {
   return converted(json, key, key, file, lists);
 }

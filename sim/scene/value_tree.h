@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct ValueTree {
   std::vector<ValueTree> children;  // for Kind::table and Kind::array, in the file's order
 
   const ValueTree* find(const std::string& name) const;
+  // Returns the number that the node is, if it is a single one.
+  std::optional<double> number() const;
 };
 
 // May arrays of texts or of truth values, which no key of a scene takes, stand in a file?

@@ -177,15 +177,6 @@ const KeyTraits& simulation_traits(const std::string& flag) {
   return key == simulation_keys().end() ? kOwn : key->traits;
 }
 
-std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every) {
-  if (text == "all") return every;
-  const std::vector<std::string> names = split(text);
-  for (auto name = names.begin(); name != names.end(); ++name)
-    if (std::find(names.begin(), name, *name) != name)
-      throw Error::invalid_input("\"" + text + "\" names " + *name + " twice");
-  return names;
-}
-
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
   for (const LawEntry& law : law_catalogue()) names.push_back(law.name);

@@ -139,8 +139,6 @@ bool has_key(const std::vector<Key>& keys, const std::string& path) {
   return std::ranges::find(keys, path, &Key::path) != keys.end();
 }
 
-// Returns names separated by commas; "all" is every one.  Throws Error::invalid_input for a repeated name.
-std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every);
 // Returns all laws, in the order of `hysteron list laws`.
 std::vector<std::string> law_names();
 

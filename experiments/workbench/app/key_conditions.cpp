@@ -196,14 +196,17 @@ KeyValues key_values(const Keys& keys) {
   return values;
 }
 
-void check_listed_names(const std::string& key, const std::string& list) {
-  const std::vector<std::string> names = split(list);
+std::vector<std::string> listed_names(const std::string& key, const std::string& list,
+                                      const std::vector<std::string>& every) {
+  if (!every.empty() && list == "all") return every;
+  std::vector<std::string> names = split(list);
   if (names.empty())
     throw Error::invalid_input(key + " = \"" + list + "\" names none (--" + key + ")").with_key(key, list);
   for (auto name = names.begin(); name != names.end(); ++name)
     if (std::find(names.begin(), name, *name) != name)
       throw Error::invalid_input(key + " = " + list + " names " + *name + " twice (--" + key + ")")
           .with_key(key, list);
+  return names;
 }
 
 void refuse_unread_flags(const CommandLine& line, const KeyValues& values) {

@@ -32,9 +32,11 @@ KeyValues key_values(const Keys& keys);
 // default value, too, but not with an empty text or false.  `values` are those of all keys of the experiment,
 // its run and its scene.
 void refuse_unread_flags(const CommandLine& line, const KeyValues& values);
-// Throws Error::invalid_input for a list, "linear,prandtl", that is empty or has a name twice, because its
-// page would be empty or repeat rows.
-void check_listed_names(const std::string& key, const std::string& list);
+// Returns the names of a key's list, "linear,prandtl"; where there are `every`, "all" alone stands for these.
+// Throws Error::invalid_input for a list that is empty or has a name twice, because its page would be empty
+// or repeat rows.
+std::vector<std::string> listed_names(const std::string& key, const std::string& list,
+                                      const std::vector<std::string>& every = {});
 // Returns a sentence for each unread key to which a scene's file gives another value than its usual one,
 // except those that flags of the line set.
 std::vector<std::string> unread_key_warnings(const CommandLine& line, const KeyValues& values,

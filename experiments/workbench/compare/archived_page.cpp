@@ -25,7 +25,7 @@ ArchivedRecord with_column(ArchivedRecord record, const ChildRun& column, std::s
   setup["stopped"] = column.stopped;
   std::error_code ignored;
   if (const fs::path probes = column.folder / "probes.csv"; fs::exists(probes, ignored))
-    setup["probes"] = whole_file(probes, "cannot read " + probes.string());  // for the loops
+    setup["probes"] = whole_file(probes);  // for the loops
   const std::string text = setup.dump();
   record.head["name"] = column.name;
   record.head["mesh"] = mesh;

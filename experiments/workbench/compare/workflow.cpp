@@ -23,7 +23,7 @@ void write_workflow(const fs::path& folder, const Workflow& workflow) {
   make_folders(folder / "slurm");
   const fs::path shipped = assets_folder() / "snakemake";
   for (const char* name : {"Snakefile", "slurm/config.yaml"})
-    write_text(folder / name, whole_file(shipped / name, "cannot read " + (shipped / name).string()));
+    write_text(folder / name, whole_file(shipped / name));
   Json jobs = Json::object();
   for (const auto& [name, words, needs] : workflow.jobs)
     jobs[name] = {{"words", words},

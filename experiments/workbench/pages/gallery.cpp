@@ -71,7 +71,7 @@ std::string gallery_teaser(const fs::path& folder, PageForm form) {
   const fs::path above = fs::absolute(folder).lexically_normal(), readme = above.parent_path() / "README.md";
   const std::string name = above.filename().string() + "/";
   if (!is_there(readme)) return "";
-  const std::string text = whole_file(readme, "cannot read " + readme.string());
+  const std::string text = whole_file(readme);
   const std::size_t image = text.find("!["), open = text.find("](", image), close = text.find(')', open);
   if (close == text.npos || text.compare(open + 2, name.size(), name) != 0) return "";
   const std::string path = text.substr(open + 2 + name.size(), close - open - 2 - name.size()),
@@ -103,7 +103,7 @@ std::vector<fs::path> reports_below(const fs::path& folder) {
     if (entry.path().filename() == "report.html" && inner != folder && !is_set_aside(inner))
       found.push_back(entry.path().parent_path());
   }
-  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw unreadable(folder, failure);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -144,8 +144,7 @@ std::vector<StalePage> stale_pages(const fs::path& folder) {
   const auto check = [&](const fs::path& of, const char* name, const std::string& page) {
     const fs::path file = of / name;
     const bool missing = !is_there(file);
-    if (missing || whole_file(file, "cannot read " + file.string()) != page)
-      stale.push_back({file, of, missing});
+    if (missing || whole_file(file) != page) stale.push_back({file, of, missing});
   };
   if (has_manifest(folder)) {
     check(folder, "report.html", report_page(folder));

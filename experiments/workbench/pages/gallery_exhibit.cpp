@@ -52,7 +52,7 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
     throw_if_loop(entry.path());
     found.push_back(entry.path());
   }
-  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw unreadable(folder, failure);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -103,7 +103,7 @@ std::map<std::string, std::string> written_captions(const fs::path& folder) {
   std::map<std::string, std::string> captions;
   const fs::path readme = folder / "README.md";
   if (!is_there(readme)) return captions;
-  std::istringstream stream(whole_file(readme, "cannot read " + readme.string()));
+  std::istringstream stream(whole_file(readme));
   std::string file;
   for (std::string line; std::getline(stream, line);) {
     const std::size_t open = line.find("]("), close = line.rfind(')');

@@ -72,7 +72,7 @@ std::vector<fs::path> files_ending(const fs::path& folder, const std::string& en
 }
 
 std::vector<std::uint8_t> content_bytes(const fs::path& file) {
-  const std::string bytes = whole_file(file, "cannot read " + file.string());
+  const std::string bytes = whole_file(file);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -85,7 +85,7 @@ std::vector<std::uint8_t> thumbnail(const fs::path& file, int width) {
 }
 
 render::ImageSize drawing_size(const fs::path& file) {
-  const std::string text = whole_file(file, "cannot read " + file.string());
+  const std::string text = whole_file(file);
   const std::size_t begin = std::min(text.find("<svg"), text.size());
   const std::string tag = text.substr(begin, text.find('>', begin) - begin);
   const render::ImageSize size{whole_number(tag, "width"), whole_number(tag, "height")};

@@ -227,7 +227,7 @@ std::string record_text(const ArchivedRecord& record) {
 }
 
 std::vector<ArchivedRecord> read_records(const fs::path& file) {
-  const std::string bytes = whole_file(file, "cannot read " + file.string());
+  const std::string bytes = whole_file(file);
   std::string_view text = bytes;
   std::vector<ArchivedRecord> records;
   try {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "render/cloth_view.h"
 #include "sim/mesh/surface.h"
 
 namespace hysteron::experiments {

@@ -44,7 +44,7 @@ TEST_F(RecordedDrapes, WithoutAnIntervalAreRefused) {
 // Each panel has its data: loops measured and simulated row by row, a decay that falls to its
 // knee and beyond, every fabric's drapes and folds.
 TEST(ValidationPage, IsDrawnFromWhatIsRecorded) {
-  const render::PlotPage page = validation_page(HYSTERON_RESULTS);
+  const render::PlotPage page = validation_page(HYSTERON_RESULTS, recorded_drapes(HYSTERON_RESULTS));
   ASSERT_EQ(page.plots.size(), 4u);
   const auto& loops = page.plots[0].plot.series;
   ASSERT_EQ(loops.size(), 2u);
