@@ -43,7 +43,7 @@ class PointContact {
   Device& device_;
   int count_;
   FrictionStops<Real, Device> stops_;
-  Buffer<typename Points::Friction, Device> lagged_;  // empty before the first lag()
+  Buffer<typename Points::Friction, Device> lagged_;  // empty before the first update_lagged_friction()
   Buffer<double, Device> inside_;
   GrowingBuffer<Real, Device> fraction_;  // empty where no obstacle has another side
   Scratch<Device> scratch_;

@@ -9,6 +9,38 @@ namespace hysteron {
 namespace {
 constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step has to reach (Armijo 1966)
 constexpr int kMaxSearchHalvings = 30;
+
+// Sums over the vertices that are not held; `with_forces`: all sums, else all but that of forces.  Arrays
+// have `vertices` elements: the correction [m] of the positions x [m], and their masses [kg].
+template <class Real, class Device>
+void sum_correction(Device& device, int vertices, const LinearSystem<Real, Device>& system,
+                    const Vec3<Real>* gradient, const Vec3<Real>* correction, const Vec3<Real>* x,
+                    const Real* mass, const char* held, bool with_forces, CorrectionSums* result) {
+  const Mat3<Real>*diagonal = system.matrix.diagonal, *remainder_diagonal = system.rest_diagonal;
+  for_each_sum<4>(
+      device, {"newton: correction", vertices * (3 * sizeof(Vec3<Real>) + sizeof(Real))}, vertices,
+      HYST_KERNEL(int i, Sums<4>& sums) {
+        if (held[i]) return;
+        sums.term[0] += static_cast<double>(mass[i] * correction[i].squaredNorm());
+        sums.term[1] += static_cast<double>(gradient[i].dot(correction[i]));
+        sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
+        if (!with_forces) return;  // the blocks would be most of the data read
+        const Real stiffness = diagonal[i].trace() + remainder_diagonal[i].trace();
+        sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
+      },
+      HYST_KERNEL(const Sums<4>& total) {
+        *result = {total.term[0], total.term[1], total.term[2], total.term[3]};
+      });
+}
+
+// Sets `trial` to x + step_length * direction, arrays of `vertices` elements [m].
+template <class Real, class Device>
+void place_trial(Device& device, int vertices, const Vec3<Real>* x, Real step_length,
+                 const Vec3<Real>* direction, Vec3<Real>* trial) {
+  for_each(
+      device, {"newton: try", 3 * vertices * sizeof(Vec3<Real>)}, vertices,
+      HYST_KERNEL(int i) { trial[i] = x[i] + step_length * direction[i]; });
+}
 }  // namespace
 
 template <class Real, class Device>
@@ -48,7 +80,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     outcome.linear_iterations +=
         solver_.solve(system, held, potential_.descent(), direction_.data(), convergence.solve_tolerance())
             .iterations;
-    measure_correction(system, x.data(), mass, held, convergence.needs_forces());
+    sum_correction(device_, vertices_, system, potential_.gradient(), direction_.data(), x.data(), mass, held,
+                   convergence.needs_forces(), correction_.data());
     const Trial first = first_try(x.data(), farthest, total_mass);  // from here on the host knows the sums
     convergence.measure(*correction_, value);
     const double step_length = search(x, value, first, (*correction_).slope, convergence.blurred_potential());
@@ -66,6 +99,13 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
   }
   convergence.report(outcome);
   return outcome;
+}
+
+template <class Real, class Device>
+typename Newton<Real, Device>::Trial Newton<Real, Device>::try_step(const Vec3<Real>* x, double step_length) {
+  place_trial<Real>(device_, vertices_, x, static_cast<Real>(step_length), direction_.data(), trial_.data());
+  potential_.take_bodies(step_length);
+  return {step_length, potential_.evaluate(trial_.data(), direction_.data())};
 }
 
 // Makes the first trial step.  A `full` system includes the membrane's softening under compression; where the
@@ -114,37 +154,6 @@ double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValu
     tried = try_step(x.data(),
                      std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * step_length, 0.5 * step_length));
   }
-}
-
-template <class Real, class Device>
-void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
-                                              const Real* mass, const char* held, bool with_forces) {
-  const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
-  const Mat3<Real>*diagonal = system.matrix.diagonal, *remainder_diagonal = system.rest_diagonal;
-  CorrectionSums* result = correction_.data();
-  for_each_sum<4>(
-      device_, {"newton: correction", 3 * direction_.bytes() + vertices_ * sizeof(Real)}, vertices_,
-      HYST_KERNEL(int i, Sums<4>& sums) {
-        if (held[i]) return;
-        sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
-        sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
-        sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
-        if (!with_forces) return;  // the blocks would be most of the data read
-        const Real stiffness = diagonal[i].trace() + remainder_diagonal[i].trace();
-        sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
-      },
-      HYST_KERNEL(const Sums<4>& total) {
-        *result = {total.term[0], total.term[1], total.term[2], total.term[3]};
-      });
-}
-
-template <class Real, class Device>
-void Newton<Real, Device>::place_trial(const Vec3<Real>* x, Real step_length) {
-  const Vec3<Real>* d = direction_.data();
-  Vec3<Real>* trial = trial_.data();
-  for_each(
-      device_, {"newton: try", 3 * trial_.bytes()}, vertices_,
-      HYST_KERNEL(int i) { trial[i] = x[i] + step_length * d[i]; });
 }
 
 template class Newton<double, ThisDevice>;

@@ -22,11 +22,6 @@ class Newton {
   void set_limits(const NewtonLimits& limits) { limits_ = limits; }
   std::size_t bytes() const { return total_bytes(direction_, trial_); }
 
-  // The parts of minimise(); public because nvcc allows no device lambda in a private member function.
-  void measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass,
-                          const char* held, bool with_forces);
-  void place_trial(const Vec3<Real>* x, Real step_length);
-
  private:
   // A step along the direction and the potential after it; of length 0: no step is feasible.
   struct Trial {
@@ -34,11 +29,7 @@ class Newton {
     PotentialValue value = {};
   };
   Trial first_try(const Vec3<Real>* x, double farthest, double total_mass);
-  Trial try_step(const Vec3<Real>* x, double step_length) {
-    place_trial(x, static_cast<Real>(step_length));
-    potential_.take_bodies(step_length);
-    return {step_length, potential_.evaluate(trial_.data(), direction_.data())};
-  }
+  Trial try_step(const Vec3<Real>* x, double step_length);
   double search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, Trial first, double slope,
                 double blurred);
 

@@ -25,6 +25,15 @@ bool may_meet(const Scene& scene) {
   return scene.self_contact && rigid > 1 && moves;
 }
 
+// Sets how far vertices at x [m] lag behind compliant pins, with a minus sign: smallest() finds the farthest.
+template <class Real, class Device>
+void find_lags(Device& device, int vertices, const CompliantPins<Real>& compliant_pins, const Vec3<Real>* x,
+               Real* lag) {
+  const CompliantPins<Real> pins = compliant_pins;
+  for_each(
+      device, "pins: lag", vertices, HYST_KERNEL(int i) { lag[i] = -pins.lag(i, x[i]); });
+}
+
 void visit_keyframes(Archive& archive, std::vector<Keyframe>& keys) {
   keys.resize(archive.size(keys.size()));
   for (Keyframe& key : keys) {
@@ -284,13 +293,8 @@ Real Pins<Real, Device>::farthest_behind(Body<Real, Device>& body) {
     scratch_ = std::make_unique<Scratch<Device>>(*body.device);
     lag_ = Buffer<Real, Device>(*body.device, body.vertices);
   }
-  const CompliantPins<Real> compliant_pins = this->compliant_pins();
-  const Vec3<Real>* x = body.x.data();
-  Real* lag = lag_.data();
-  for_each(
-      *body.device, "pins: lag", body.vertices,
-      HYST_KERNEL(int i) { lag[i] = -compliant_pins.lag(i, x[i]); });
-  return -smallest(*body.device, *scratch_, lag, body.vertices, Real(0));
+  find_lags(*body.device, body.vertices, compliant_pins(), body.x.data(), lag_.data());
+  return -smallest(*body.device, *scratch_, lag_.data(), body.vertices, Real(0));
 }
 
 template <class Real, class Device>

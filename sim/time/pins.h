@@ -71,9 +71,6 @@ class Pins {
            (sweep_ ? sweep_->bytes() : 0) + (scratch_ ? scratch_->bytes() : 0);
   }
 
-  // A part of end_stage(); public because nvcc allows no device lambda in a private member function.
-  Real farthest_behind(Body<Real, Device>& body);
-
  private:
   // Allocates the arrays that moving pins need, where they are missing; vertices held at `time` [s] start
   // where they were at t = 0.
@@ -85,6 +82,7 @@ class Pins {
   void share_strength(const Scene& scene, const std::vector<int>& pins);
   void restore_rigid(Body<Real, Device>& body);
   void hold_again(Body<Real, Device>& body);
+  Real farthest_behind(Body<Real, Device>& body);
   PinPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
   // The most that any of the scene's pins does.
