@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# tests/tidy.sh [COMMIT | FILE...]: clang-tidy 14 as .clang-tidy says, each warning an error, on the sources that differ
-# from COMMIT (HEAD~1 unless named); of a header a source that includes it.  Each takes some ten seconds to a minute.
-# Compile commands are those of the preset debug in build-debug/, where nothing but the version's header is built.
-# 77 (skipped) without clang-tidy 14.
+# tests/tidy.sh [--seconds LIMIT] [COMMIT | FILE...]: clang-tidy 14 as .clang-tidy says, each warning an error, on the
+# sources that differ from COMMIT (HEAD~1 unless named); of a header a source that includes it.  Each takes some ten seconds
+# to a minute.  Compile commands are those of the preset debug in build-debug/, where nothing but the version's header is
+# built.  77 (skipped) without clang-tidy 14 or git's history.
+# --seconds is for .ci/run: it begins with the sources that differ and goes on with others, from a place that the commit's
+# hash gives, so that each is read now and then; when the time is over it ends what it has not finished.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -10,10 +12,15 @@ for program in clang-tidy-14 clang-tidy none; do
   [[ $("$program" --version 2>/dev/null) == *"version 14."* ]] && break
 done
 [[ $program != none ]] || { echo "clang-tidy 14 is not installed: nothing checked" && exit 77; }
+hash=$(git rev-parse --short=7 HEAD 2>/dev/null) || { echo "no git repository: nothing checked" && exit 77; }
 
+limit=0
+if [[ ${1:-} == --seconds ]]; then limit=$2 && shift 2; fi
 changed=("$@")
 if [[ $# == 0 || ! -e $1 ]]; then
-  commit=$(git rev-parse --verify "${1:-HEAD~1}^{commit}")
+  base=${1:-HEAD~1}
+  git rev-parse --verify --quiet HEAD~1 >/dev/null || base=${1:-HEAD}  # a clone without history
+  commit=$(git rev-parse --verify "$base^{commit}")
   mapfile -t changed < <(git diff --name-only --diff-filter=d "$commit" -- '*.cpp' '*.h')
 fi
 
@@ -25,11 +32,35 @@ sources_of() {
   done | grep -vE '^tests/(fuzz/(target|one_experiment)|examples/(consumer|subproject)/)' | sort -u
 }
 mapfile -t sources < <(sources_of "${changed[@]}")
+if [[ $limit != 0 ]]; then
+  mapfile -t all < <(git ls-files '*.cpp' | xargs -d '\n' bash -c "$(declare -f sources_of); sources_of \"\$@\"" -)
+  place=$((16#$hash % ${#all[@]}))
+  mapfile -t sources < <(printf '%s\n' "${sources[@]}" "${all[@]:place}" "${all[@]:0:place}" | awk 'NF && !seen[$0]++')
+fi
 [[ ${#sources[@]} -gt 0 ]] || { echo "no source to check" && exit 0; }
 
 cmake --preset debug -DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=ON >/dev/null
 cmake --build --preset debug --target hysteron_version >/dev/null
-echo "clang-tidy on ${#sources[@]} sources"
-printf '%s\n' "${sources[@]}" |
-  xargs -P "$(nproc)" -n 1 "$program" -p build-debug --quiet --warnings-as-errors='*' 2>&1 |
-  sed '/ warnings generated\.$/d' || exit 1
+checked=$(mktemp)
+trap 'rm -f "$checked"' EXIT
+begin=$((EPOCHSECONDS - SECONDS))
+
+# check FILE: fails if clang-tidy finds something in time.
+check() {
+  local left=0 status=0
+  if [[ $limit != 0 ]]; then
+    left=$((begin + limit - EPOCHSECONDS))
+    ((left > 0)) || return 0
+  fi
+  timeout "$left" "$program" -p build-debug --quiet --warnings-as-errors='*' "$1" 2>&1 |
+    sed '/ warnings generated\.$/d' || status=$?
+  [[ $status != 124 ]] || return 0
+  echo "$1" >>"$checked"
+  return "$status"
+}
+export -f check
+export limit begin program checked
+status=0
+printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -I{} bash -o pipefail -c 'check {}' || status=1
+echo "clang-tidy has read $(wc -l <"$checked") of ${#sources[@]} sources"
+exit "$status"
