@@ -383,8 +383,8 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
   const std::string file = (folder_.path() / "both.csv").string();
   Table table(made_table.head);
   for (const char* direction : {"B", "W", "L"})
-    for (std::size_t i = 0; i < made_table.rows.size(); i += 2) {  // order shows in few rows as in all
-      table.rows.push_back(made_table.rows[i]);
+    for (const std::vector<std::string>& row : made_table.rows) {
+      table.rows.push_back(row);
       table.rows.back()[0] = direction;
     }
   table.write(file);
