@@ -50,7 +50,8 @@ void vary_all(const MethodSetting& base, std::vector<MethodSetting>& list) {
   for (double times : {4.0, 0.5}) vary_step(base, Integrator::implicit, times, list);
   vary(list, base, "size", &MethodSetting::triangles, {64});
   vary(list, base, "mesh", &MethodSetting::mesh,
-       {"aligned", "aligned-45", "flipped", "equilateral", "random"});
+       {MeshFamily::aligned, MeshFamily::aligned45, MeshFamily::flipped, MeshFamily::equilateral,
+        MeshFamily::random});
   vary(list, base, "element", &MethodSetting::element, {BendingElement::hinge});
 }
 

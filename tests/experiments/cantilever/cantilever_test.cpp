@@ -14,6 +14,9 @@ Json recorded_metrics(const std::vector<Flag>& flags) { return metrics_with("can
 constexpr double kDropOfTen = 0.7001997;  // over the length, heaviness 10: the elastica by shooting
 constexpr double kWithin = 5e-3;          // of 256 triangles at most 0.22 %, of aligned-45 on 512 0.49 %
 
+// Statics without friction do not remember their steps: a few put the weight on, and none takes it off.
+const std::vector<Flag> kSoonLoaded = {{"law", "linear"}, {"ramp", "0.2"}, {"unload", "0"}};
+
 struct Meshed {
   const char *mesh, *triangles;
 };
@@ -31,8 +34,10 @@ INSTANTIATE_TEST_SUITE_P(Meshes, OnAMesh,
                          });
 
 TEST_P(OnAMesh, DropsAsTheElastica) {
-  const auto metrics =
-      recorded_metrics({{"gamma", "10"}, {"mesh", GetParam().mesh}, {"triangles", GetParam().triangles}});
+  std::vector<Flag> flags = kSoonLoaded;
+  flags.insert(flags.end(),
+               {{"gamma", "10"}, {"mesh", GetParam().mesh}, {"triangles", GetParam().triangles}});
+  const auto metrics = recorded_metrics(flags);
   EXPECT_NEAR(metrics["tip_drop_over_length"].get<double>() / kDropOfTen, 1, kWithin);
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin);
   EXPECT_NEAR(metrics["bending_length_m"].get<double>() / (0.1 / std::cbrt(10)), 1, kWithin);
@@ -55,11 +60,12 @@ TEST(Cantilever, ShowsAWrongRigidity) {
   constexpr double kB = 1e-5, kLength = 0.1, kGravity = 9.81;
   const double density = 10 * kB / (kGravity * kLength * kLength * kLength);
   const std::string b = std::to_string(1e6 * 1.05 * kB) + "e-6";
-  const auto metrics = recorded_metrics({{"law", "linear"},
-                                         {"triangles", "256"},
-                                         {"fabric.b1", b},
-                                         {"fabric.b2", b},
-                                         {"fabric.density", std::to_string(density)}});
+  std::vector<Flag> flags = kSoonLoaded;
+  flags.insert(flags.end(), {{"triangles", "256"},
+                             {"fabric.b1", b},
+                             {"fabric.b2", b},
+                             {"fabric.density", std::to_string(density)}});
+  const auto metrics = recorded_metrics(flags);
   EXPECT_LT(metrics["tip_drop_over_length"].get<double>() / kDropOfTen, 1 - 2 * kWithin);
   EXPECT_GT(metrics["bending_length_m"].get<double>() / (kLength / std::cbrt(10)), 1 + 2 * kWithin);
 }
@@ -79,7 +85,7 @@ TEST(Cantilever, FollowsTheElasticaWithFrictionAndKeepsItsDroop) {
 TEST(Cantilever, ShowsAWrongRigidityInItsDroopAsWell) {
   const auto metrics_with = [](double wrong) {
     return recorded_metrics({{"law", "prandtl"},
-                             {"triangles", "256"},
+                             {"triangles", "128"},
                              {"fabric.b1", std::to_string(36 * wrong) + "e-6"},
                              {"fabric.b2", std::to_string(12 * wrong) + "e-6"},
                              {"fabric.density", "0.0122"}});

@@ -1,5 +1,6 @@
 // Crumpling by its own command: what stays under a law with hysteresis and does not under an elastic one.
 #include "render/image.h"
+#include "sim/base/csv.h"
 #include "tests/experiments/program.h"
 #include "tests/render/test_scene.h"
 
@@ -25,7 +26,7 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
   EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
   EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
-  EXPECT_TRUE(says(file_content(run.out / "table.csv"), "prandtl,"));
+  EXPECT_EQ(read_table(run.out / "table.csv").rows.size(), 2u);
 }
 
 // The right end of a strip is led over the left one, which is held, and 2 cm beyond it.

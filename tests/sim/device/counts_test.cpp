@@ -59,12 +59,12 @@ TEST_P(DeviceCountsOfAStep, ExplicitStepsAreAllTheSame) {
   }
 }
 
-TEST_P(DeviceCountsOfAStep, SemiImplicitStepsTakeThreeLoopsAnIterationAndFourteen) {
+TEST_P(DeviceCountsOfAStep, SemiImplicitStepsTakeAtMostThreeLoopsAnIterationAndFourteen) {
   constexpr long kOwn = 14, kIteration = 3;
   const auto steps = recorded_steps("semi-implicit", GetParam());
   for (int i = 1; i < kSteps; ++i) {
     EXPECT_GT(steps[i].solver, 10);
-    EXPECT_EQ(steps[i].counts.loops, kOwn + (on_gpu() ? 1 : kIteration * steps[i].solver)) << "step " << i;
+    EXPECT_LE(steps[i].counts.loops, kOwn + (on_gpu() ? 1 : kIteration * steps[i].solver)) << "step " << i;
     EXPECT_LE(steps[i].counts.synchronizations, 4) << "step " << i;
     EXPECT_EQ(steps[i].counts.allocations, 0) << "step " << i;
   }

@@ -12,7 +12,7 @@ namespace hysteron {
 namespace {
 
 constexpr double kLoopNoise = 0.02;
-constexpr int kSeeds = 100;
+constexpr int kSeeds = 50;
 
 Identification identified(const MomentSeries& series, const std::string& law = "prandtl",
                           bool offset = false) {
@@ -63,9 +63,8 @@ struct LoopCase {
 
 class NoisyLoop : public testing::TestWithParam<LoopCase> {};
 
-// 3 standard errors hold 99.7 % of a normal distribution: of 100 seeds two are outside in one test of 30,
-// three in one of 300.  The scatter of 100 values is known to 7 %: true standard errors are within 25 % of
-// it.
+// 3 standard errors hold 99.7 % of a normal distribution: of 50 seeds two are outside in one test of 100.
+// The scatter of 50 values is known to 10 %: true standard errors are within 25 % of it.
 TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
   constexpr double kMinFraction = 0.97, kHonest = 0.25;
   const LoopCase& loop = GetParam();

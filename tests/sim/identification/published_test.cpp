@@ -36,7 +36,7 @@ TEST(Kes, WithoutK0LeavesB1AndK0OpenAndSaysWhatIsAssumed) {
   EXPECT_EQ(found.k0.high, 25);
   EXPECT_NEAR(found.curve().friction_moment(), two_hb / 2, kRounding);
   EXPECT_TRUE(says(found.statements.at(0), "k0 = 8/m"));
-  EXPECT_TRUE(says(found.k0.source, "assumed"));
+  EXPECT_EQ(found.k0.confidence, "assumed");
 }
 
 TEST(Kes, WithoutALoopLeavesOnlyK0Open) {
