@@ -124,7 +124,7 @@ double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) c
   if (scene.obstacle.size() < 2) return 0;
   const Obstacle& plate = scene.obstacle[1];
   const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
-  const ObstacleShell<double> activation_distance = obstacle_activation_distance(scene);
+  const ObstacleResponse<double> activation_distance = obstacle_response(scene);
   double force = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const bool under = (x[i] - plate.center).cwiseAbs().x() < plate.size.x();

@@ -181,7 +181,7 @@ void add_apparatus(Scene& scene, const DrapeParams& choice, const Specimen& spec
   // apparatus, and the plate throws nothing up when it goes down.
   constexpr double kOwnWeights = 4;
   const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
-  const double activation_distance = distance_under(obstacle_activation_distance(scene), pressure);
+  const double activation_distance = distance_under(obstacle_response(scene), pressure);
   scene.cloth.position += Eigen::Vector3d(choice.offset, 0, activation_distance) - specimen.middle;
   Obstacle pedestal;
   pedestal.kind = ObstacleKind::cylinder;

@@ -7,8 +7,8 @@ double barrier_stiffness(double thickness) {
   return -kTestPressure / barrier(1.0, gap, range).slope;
 }
 
-ObstacleShell<double> obstacle_activation_distance(const Scene& scene) {
-  ObstacleShell<double> response{scene.fabric.thickness, 1,
+ObstacleResponse<double> obstacle_response(const Scene& scene) {
+  ObstacleResponse<double> response{scene.fabric.thickness, 1,
                                  scene.finds_equilibrium() ? kCrushed * scene.fabric.thickness : 0, 0};
   response.k = scene.contact_stiffness > 0 ? scene.contact_stiffness / response.stiffest()
                                            : barrier_stiffness(scene.fabric.thickness);
@@ -16,7 +16,7 @@ ObstacleShell<double> obstacle_activation_distance(const Scene& scene) {
   return response;
 }
 
-double distance_under(const ObstacleShell<double>& response, double pressure) {
+double distance_under(const ObstacleResponse<double>& response, double pressure) {
   const Barrier<double> surface = response.at(0);
   if (-surface.slope < pressure) return -(pressure + surface.slope) / surface.stiffness;  // inside the solid
   double low = 0, high = response.thickness;

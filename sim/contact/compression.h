@@ -28,7 +28,7 @@ double barrier_stiffness(double thickness);
 // kYieldPressure, next to the surface, the solid yields: from there on it is no stiffer than the compression
 // that was measured, so that solids which close on cloth pinch it and go on.
 template <class Real>
-struct ObstacleShell {
+struct ObstacleResponse {
   Real thickness;  // of the cloth, the activation distance [m]
   Real k;          // of the barrier [N/m^3]
   Real last;       // distance at which the last barrier begins [m]; 0: none
@@ -59,14 +59,14 @@ struct ObstacleShell {
 
 // Returns the response of a scene's obstacles: `contact-stiffness` is its stiffness at the compression of the
 // test.
-ObstacleShell<double> obstacle_activation_distance(const Scene& scene);
+ObstacleResponse<double> obstacle_response(const Scene& scene);
 // Returns the distance [m] at which obstacles answer with a pressure [Pa] that they do not yield to.
-double distance_under(const ObstacleShell<double>& response, double pressure);
+double distance_under(const ObstacleResponse<double>& response, double pressure);
 
 // The common model of contact with obstacles for vertices and triangles.
 template <class Real>
 struct ContactModel {
-  ObstacleShell<Real> response;
+  ObstacleResponse<Real> response;
   Real slip;        // elastic slip of friction [m]
   Real tangential;  // bound on the stiffness of friction [N/m^3]
 

@@ -13,7 +13,7 @@ constexpr double kTangential = 0.5;
 
 template <class Real>
 ContactModel<Real> contact_model(const Scene& scene) {
-  const ObstacleShell<double> response = obstacle_activation_distance(scene);
+  const ObstacleResponse<double> response = obstacle_response(scene);
   return {{static_cast<Real>(response.thickness), static_cast<Real>(response.k),
            static_cast<Real>(response.last), static_cast<Real>(response.yield)},
           static_cast<Real>(kElasticSlip * response.thickness),

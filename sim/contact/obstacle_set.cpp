@@ -99,7 +99,7 @@ Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vecto
   return result;
 }
 
-bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& response,
+bool is_squeezed(const ObstacleSet<double>& set, const ObstacleResponse<double>& response,
                  const Eigen::Vector3d& x, const Eigen::Vector3d& pressure) {
   const auto pressure_at = [&](double distance) {
     return distance < response.thickness ? -response.at(distance).slope : 0.0;

@@ -120,7 +120,7 @@ Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vecto
 
 // Is a vertex at x that is in one obstacle pressed from its other side by at least half as much, by other
 // obstacles, or by other layers with a `pressure` [Pa]?
-bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& response,
+bool is_squeezed(const ObstacleSet<double>& set, const ObstacleResponse<double>& response,
                  const Eigen::Vector3d& x, const Eigen::Vector3d& pressure);
 
 // Describes it: "vertex 57 at (0.1, 0.2, 0) m lies 4.2 mm inside obstacle[1] (sphere)"; for `hollow`

@@ -17,7 +17,7 @@ std::vector<char> pinched_vertices(Body<Real, Device>& body, const ObstacleSet<d
   const std::vector<Vec3<Real>> layers = body.self_contact
                                              ? body.self_contact->forces()
                                              : std::vector<Vec3<Real>>(body.vertices, Vec3<Real>::Zero());
-  const ObstacleShell<double> response = obstacle_activation_distance(body.scene);
+  const ObstacleResponse<double> response = obstacle_response(body.scene);
   std::vector<char> pinched(body.vertices);
   for (int i = 0; i < body.vertices; ++i) {
     const Eigen::Vector3d pressure = layers[i].template cast<double>() / body.cloth.mesh.vertex_area[i];

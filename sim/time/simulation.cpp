@@ -59,7 +59,7 @@ StepLimits stable_steps(const Scene& scene, const Cloth& cloth, const CurvatureO
   if (scene.integrator != Integrator::explicit_euler) return limits;
   double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, scene.membrane_element, mass, held);
   const double viscous_membrane = scene.fabric.damping * stiff;
-  if (!scene.obstacle.empty()) stiff += obstacle_activation_distance(scene).stiffest() / scene.fabric.density;
+  if (!scene.obstacle.empty()) stiff += obstacle_response(scene).stiffest() / scene.fabric.density;
   limits.membrane_step = stable_step(stiff + bending, viscous_membrane + viscous);
   return limits;
 }

@@ -42,7 +42,7 @@ TEST(CreaseSpecimen, FeelsThePlateByItsShell) {
   const Crease crease = creased(small_scene(), {}, 1.4e-3);
   auto x = crease.cloth.start;
   const double pressure = 1000, covered = 0.015 * (0.3 + 0.375) * 0.04;
-  for (auto& p : x) p.z() = 1.4e-3 - distance_under(obstacle_activation_distance(crease.scene), pressure);
+  for (auto& p : x) p.z() = 1.4e-3 - distance_under(obstacle_response(crease.scene), pressure);
   EXPECT_NEAR(crease.plate_force(x, crease.times.pressed) / (pressure * covered), 1, 0.1);
 }
 

@@ -69,7 +69,7 @@ Obstacle rod(double radius, const Vector3d& center) {
 Obstacle3<double> placed(const Obstacle& o) { return obstacles_during<double>({o}, 0.3, 0, 0).item[0]; }
 
 ContactModel<double> scene_contact_model(const Scene& scene) {
-  const ObstacleShell<double> response = obstacle_activation_distance(scene);
+  const ObstacleResponse<double> response = obstacle_response(scene);
   return {response, kElasticSlip * response.thickness, 0.5 * response.stiffest()};
 }
 
