@@ -170,7 +170,6 @@ void throw_if_stray_word(const std::string& word, const std::vector<Experiment>&
 
 CommandLine taken_apart(const Command& command, std::string shell_command) {
   CommandLine line{command.experiment->name, std::move(shell_command), {}, command.positionals};
-  if (!command.experiment->run) return line;
   throw_if_unknown(command);
   for (const auto& [path, option] : command.flags) {
     warn_of_repeated(path, *option);

@@ -8,9 +8,6 @@
 #include <set>
 #include <sstream>
 
-#include "experiments/workbench/app/case.h"
-#include "experiments/workbench/pictures/framing.h"
-#include "render/camera.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/base/fnv1a.h"
@@ -167,22 +164,6 @@ CommandLine without_lists(const CommandLine& line) {
 bool lists_fabrics(const CommandLine& line) {
   return std::any_of(line.flags.begin(), line.flags.end(),
                      [](const Flag& flag) { return flag_key(flag) == "fabric" && is_list(flag); });
-}
-
-std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Variant>& variants) {
-  const Experiment& experiment = experiment_named(line.experiment);
-  if (!experiment.frame) return {};
-  std::optional<render::Box> box;
-  for (const Variant& variant : variants) {
-    const std::unique_ptr<Case> own = experiment.case_of(with_variant(line, variant));
-    const std::optional<render::Box> one = planned_framing(own->setup, experiment.frame);
-    if (!one) return {};
-    box = box ? box->merged(*one) : *one;
-  }
-  std::string corners;
-  for (const Eigen::Vector3f& corner : {box->low, box->high})
-    for (int k = 0; k < 3; ++k) corners += number_text(corner[k]) + " ";
-  return {{"camera.box", corners}};
 }
 
 std::vector<Flag> for_sheets(const CommandLine& line) {
