@@ -1,12 +1,15 @@
-# What every library of this tree calls: sources are found by their folders, and headers are parsed once for many of them.
+# Functions that the libraries and tests of this tree call: for sources that are found by their folders, and for files that
+# stand in binaries.
 
 option(HYSTERON_UNITY "Compile sources of one folder together: OFF for work on one of them, and for clang-tidy" ON)
 
-# hysteron_sources(TARGET PATTERN... [EXCEPT REGEX]): what the patterns match in this folder.  Up to eight sources of one
-# folder are compiled as one: more at a time leave cores idle at the end, and an edit to one compiles them all.  Apart
-# stay those with flags of their own or with SKIP_UNITY_BUILD_INCLUSION.
+# hysteron_sources(TARGET PATTERN... [ACROSS_FOLDERS] [EXCEPT REGEX]): what the patterns match in this folder.  Up to eight
+# sources of one folder are compiled as one, with ACROSS_FOLDERS also of neighbouring ones, where most have one or two
+# sources: each unit takes g++ four seconds for the templates that all of them use.  More at a time would leave cores idle
+# at the end, and an edit to one compiles them all.  Apart stay those with flags of their own or with
+# SKIP_UNITY_BUILD_INCLUSION.
 function(hysteron_sources target)
-  cmake_parse_arguments(PARSE_ARGV 1 of "" EXCEPT "")
+  cmake_parse_arguments(PARSE_ARGV 1 of "ACROSS_FOLDERS" "EXCEPT" "")
   file(GLOB sources CONFIGURE_DEPENDS ${of_UNPARSED_ARGUMENTS})
   if(of_EXCEPT)
     list(FILTER sources EXCLUDE REGEX "${of_EXCEPT}")
@@ -17,19 +20,14 @@ function(hysteron_sources target)
   foreach(source ${sources})
     get_filename_component(folder ${source} DIRECTORY)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    if(of_ACROSS_FOLDERS)
+      set(folder ${target})
+    endif()
     string(MAKE_C_IDENTIFIER ${folder} folder)
     math(EXPR batch "0${${folder}} / 8")
     math(EXPR ${folder} "0${${folder}} + 1")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${batch})
   endforeach()
-endfunction()
-
-# hysteron_parse_once(TARGET HEADER...): these headers are parsed once for the whole target, with its own flags.  g++
-# would search all of them for garbage every few seconds; with more memory it does so less often, with the same result.
-function(hysteron_parse_once target)
-  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-expand=400>
-                                           $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1500000>)
-  target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 
 # hysteron_embed(TARGET NAMESPACE HEADER FILE...): the files stand in the binary, as embedded_file() of the header.

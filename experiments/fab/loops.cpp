@@ -82,11 +82,9 @@ void add_metrics(Run& run, const ComparedLoops& compared) {
     run.metric("measured_force_zero_N_per_m", compared.zero);
   }
   const FabRun& r = compared.run;
-  run.metric("work_J_per_m", r.work);
   run.metric("dissipated_J_per_m", r.dissipated);
   run.metric("energy_imbalance_percent", 100 * std::abs(r.work - r.stored - r.dissipated) /
                                              std::max(r.largest_work, std::abs(r.stored) + r.dissipated));
-  if (compared.loops.bends()) run.metric("peak_curvature_per_m", r.peak_curvature);
 }
 
 void write_loops(Run& run, const std::string& name, const ComparedLoops& compared) {

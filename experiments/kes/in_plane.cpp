@@ -71,9 +71,8 @@ constexpr double kInPlaneGauge = 0.05, kInPlaneWidth = 0.2;  // size of the test
 // shows in their forces.  The cloth stays in its plane, which it does not leave without a disturbance.
 template <class Test>
 struct InPlaneCloth {
-  Test test;           // rows and readings of the specimen
-  Test law;            // the law alone through the same rows
-  double tension = 0;  // mean tension per width over the rows of shear [N/m]
+  Test test;  // rows and readings of the specimen
+  Test law;   // the law alone through the same rows
   int triangles = 0;
   double seconds = 0;  // wall clock [s]
 };
@@ -146,11 +145,10 @@ InPlaneCloth<ShearTest> shear_cloth(const Fabric& fabric, Along along, const InP
   for (std::size_t i = 0; i < law.force.size(); ++i)
     places.push_back({law.walk.stretch[i] - 1, law.walk.shear.rows[i].curvature});
   const ClampForces forces = forces_at(fabric, along, specimen, places);
-  InPlaneCloth<ShearTest> cloth{{{}, law.walk, {}}, law, 0, forces.triangles, forces.seconds};
+  InPlaneCloth<ShearTest> cloth{{{}, law.walk, {}}, law, forces.triangles, forces.seconds};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto [tension, force] = forces.force[i];
     cloth.test.force.push_back(force - tension * places[i].along / law.walk.stretch[i]);
-    cloth.tension += tension / static_cast<double>(places.size());
   }
   cloth.test.reading = read_shear(protocol, law.walk.shear, cloth.test.force);
   return cloth;
@@ -163,8 +161,7 @@ InPlaneCloth<TensionTest> stretch_cloth(const Fabric& fabric, Along along, const
   std::vector<ClampPlace> places;
   for (std::size_t i = 1; i < law.extension.size(); ++i) places.push_back({law.extension[i], 0});
   const ClampForces forces = forces_at(fabric, along, specimen, places);
-  InPlaneCloth<TensionTest> cloth{
-      {{}, law.extension, {0}, law.turn}, law, 0, forces.triangles, forces.seconds};
+  InPlaneCloth<TensionTest> cloth{{{}, law.extension, {0}, law.turn}, law, forces.triangles, forces.seconds};
   for (const ClampPlace& of : forces.force) cloth.test.force.push_back(of.apart);
   cloth.test.reading = read_tension(cloth.test.extension, cloth.test.force, law.turn);
   return cloth;
@@ -195,7 +192,6 @@ struct InPlaneResult {
   // cloth was requested.
   InPlaneLoop cloth, coarse;
   InPlaneLoop law_through_rows;  // the law alone through the specimen's rows
-  double tension = 0;            // tension of the specimen in shear [N/m]
   int triangles = 0;
   double seconds = 0;
 };
@@ -292,7 +288,6 @@ void write_in_plane_metrics(Run& run, const InPlaneResult& result) {
     run.metric(name + "_mesh_error_percent", std::abs(apart.mesh));
   }
   if (result.cloth.numbers.empty()) return;
-  if (result.tension > 0) run.metric("strip_tension_N_per_m", result.tension);
   run.metric("strip_triangles_count", result.triangles);
   run.metric("strip_solve_s", result.seconds);
 }
@@ -357,7 +352,6 @@ void test_on_cloth(InPlaneResult& result, const Test& law, const InPlaneFlags& f
   result.cloth = in_plane_loop(cloth.test);
   result.law_through_rows = in_plane_loop(cloth.law);
   result.coarse = in_plane_loop(on_cloth(result.fabric, flags.along, coarse, flags.protocol).test);
-  result.tension = cloth.tension;
   result.triangles = cloth.triangles;
   result.seconds = cloth.seconds;
 }

@@ -78,7 +78,6 @@ FabRun bent(const FabLoops& loops, const FabStrip& strip, int branches) {
       run.force.back().push_back(test.force());
       run.work = work.add(distance, test.force());
       run.largest_work = std::max(run.largest_work, std::abs(run.work));
-      run.peak_curvature = std::max(run.peak_curvature, test.peak_curvature());
     }
     run.shapes.push_back(test.line());
   }

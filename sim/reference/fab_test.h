@@ -47,7 +47,6 @@ struct FabRun {
   std::vector<std::vector<Eigen::Vector2d>> shapes;
   double work = 0, stored = 0, dissipated = 0;  // since the first distance [J/m]; the clamps' work
   double largest_work = 0;                      // the largest value of `work` on the way [J/m]
-  double peak_curvature = 0;                    // [1/m]
 };
 
 // Simulates all branches, or the first `branches`.  A strip that bends is laid slack at the first distance,

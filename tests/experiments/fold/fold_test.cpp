@@ -11,7 +11,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kRounding = 1e-9;  // relative, of sums over many steps
+constexpr double kSummed = 1e-9;  // relative, of sums over many steps
 constexpr double kReleased = 1e-4;  // of M0: fatigue finds what weakening itself releases in two rounds
 
 Scene small_scene() {
@@ -125,11 +125,11 @@ TEST(BentRepeatedly, CostsTheClosedFormInEveryCycleWithoutFatigue) {
   ASSERT_EQ(cycles.size(), 6u);  // 1, 2, 5, 10, 20, 50
   for (const BendingCycle& c : cycles) {
     if (c.cycle > 1) {
-      EXPECT_NEAR(c.dissipated, cost, kRounding * cost);
+      EXPECT_NEAR(c.dissipated, cost, kSummed * cost);
     }
-    EXPECT_NEAR(c.material.loop_width, 2 * m0, kRounding * m0);
-    EXPECT_NEAR(c.material.friction, m0, kRounding * m0);
-    EXPECT_NEAR(c.set, cycles[0].set, kRounding * c.set);
+    EXPECT_NEAR(c.material.loop_width, 2 * m0, kSummed * m0);
+    EXPECT_NEAR(c.material.friction, m0, kSummed * m0);
+    EXPECT_NEAR(c.set, cycles[0].set, kSummed * c.set);
     EXPECT_EQ(c.material.permanent_set, 0);
   }
 }
