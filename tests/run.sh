@@ -12,9 +12,14 @@ optional_test_packages=("${optional_program_packages[@]}" "clang-format-14|check
   "python3-numpy|arrays in Python"
   "libxml2-utils|checks JUnit files")
 
+# .ci/run has clang-tidy read for so many seconds what the last commit has changed; a warning is an error.
+[[ -z ${HYSTERON_TIDY_SECONDS:-} ]] || optional_test_packages+=("clang-tidy-14|reads what a commit has changed")
 install_missing test_packages optional_test_packages
 configure -DHYSTERON_TESTS=ON
 build
+if [[ -n ${HYSTERON_TIDY_SECONDS:-} ]]; then
+  "$root/tests/tidy.sh" --seconds "$HYSTERON_TIDY_SECONDS" || [[ $? == 77 ]]
+fi
 # Some tests wait, for a browser or a killed run: one more than there are cores.  None needs a second thread for itself.
 export OMP_NUM_THREADS=1
 exec ctest --test-dir "$build_folder" --output-on-failure --parallel "$(($(nproc) + 1))" "$@"

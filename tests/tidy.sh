@@ -3,8 +3,7 @@
 # sources that differ from COMMIT (HEAD~1 unless named); of a header a source that includes it.  Each takes some ten seconds
 # to a minute.  Compile commands are those of the preset debug in build-debug/, where nothing but the version's header is
 # built.  77 (skipped) without clang-tidy 14 or git's history.
-# --seconds is for .ci/run: it begins with the sources that differ and goes on with others, from a place that the commit's
-# hash gives, so that each is read now and then; when the time is over it ends what it has not finished.
+# --seconds is for .ci/run: when the time is over it ends what it has not finished, and says how many it has read.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
@@ -12,7 +11,7 @@ for program in clang-tidy-14 clang-tidy none; do
   [[ $("$program" --version 2>/dev/null) == *"version 14."* ]] && break
 done
 [[ $program != none ]] || { echo "clang-tidy 14 is not installed: nothing checked" && exit 77; }
-hash=$(git rev-parse --short=7 HEAD 2>/dev/null) || { echo "no git repository: nothing checked" && exit 77; }
+git rev-parse HEAD >/dev/null 2>&1 || { echo "no git repository: nothing checked" && exit 77; }
 
 limit=0
 if [[ ${1:-} == --seconds ]]; then limit=$2 && shift 2; fi
@@ -32,11 +31,6 @@ sources_of() {
   done | grep -vE '^tests/(fuzz/(target|one_experiment)|examples/(consumer|subproject)/)' | sort -u
 }
 mapfile -t sources < <(sources_of "${changed[@]}")
-if [[ $limit != 0 ]]; then
-  mapfile -t all < <(git ls-files '*.cpp' | xargs -d '\n' bash -c "$(declare -f sources_of); sources_of \"\$@\"" -)
-  place=$((16#$hash % ${#all[@]}))
-  mapfile -t sources < <(printf '%s\n' "${sources[@]}" "${all[@]:place}" "${all[@]:0:place}" | awk 'NF && !seen[$0]++')
-fi
 [[ ${#sources[@]} -gt 0 ]] || { echo "no source to check" && exit 0; }
 
 cmake --preset debug -DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=ON >/dev/null
