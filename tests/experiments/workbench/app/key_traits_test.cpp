@@ -40,6 +40,7 @@ HemRun with_hem(std::vector<Flag> flags) {
 TEST(ANewKey, IsShownByHelpWithUnitRangeChoicesAndDefault) {
   const Experiment hem{.name = "hem",
                        .question = "how a hem falls",
+                       .run = [](const CommandLine&) { return 0; },
                        .simulates = true,
                        .own_keys = own_key_descriptions<kHemRows>};
   const std::string text = help_asked({"hem", "--help"}, {hem}, 100).value_or("");
