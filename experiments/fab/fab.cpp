@@ -37,7 +37,7 @@ struct TestFlags {
 using F = TestFlags;
 // clang-format off
 const KeyRow<TestFlags> kRows[] = {
-    {"fabric.name", at<&F::fabric>, "", any(), "NAME or FILE, as `fit --fab` writes it or any other"},
+    {"fabric.name", at<&F::fabric>, "", any(), "NAME or FILE, as `fit --fab` writes it or any other", {.flag = "fabric"}},
     {"fab.data", at<&F::data>, "", any(), "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
     {"units", at<&F::units>, "", any(), "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
     {"fab.direction", at<&F::direction>, "", any(), "along which the strip is cut: length (warp), width (weft), bias"},

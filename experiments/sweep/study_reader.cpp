@@ -34,7 +34,7 @@ bool is_of_sweep(const std::string& flag) {
 // scene, it also takes this as --scene.
 bool can_be_repeated(const Experiment& experiment) {
   const bool by_flags = !*experiment.positionals || (experiment.simulates && experiment.defaults);
-  if (!experiment.run || !by_flags) return false;
+  if ((!experiment.run && !experiment.case_of) || !by_flags) return false;
   const std::vector<KeyDescription> keys = experiment_options(experiment, Defaults::left_out);
   return has_key(keys, "out") && has_key(keys, "quiet");
 }
