@@ -8,7 +8,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kFloatRounding = 1e-12;
 
 // The strip is equally stiff along warp and weft, without viscosity.
 const std::string kSwing =
@@ -29,7 +29,7 @@ void expect_linear(const std::string& element, const std::vector<std::string>& c
                m = column(probes, "probe1_moment" + component + " [N]"),
                left = column(probes, "probe1_residual_curvature" + component + " [1/m]");
     for (std::size_t i = 0; i < k.size(); ++i) {
-      EXPECT_NEAR(m[i], b2 * k[i], kRounding * b2 * std::abs(k[i])) << component;
+      EXPECT_NEAR(m[i], b2 * k[i], kFloatRounding * b2 * std::abs(k[i])) << component;
       EXPECT_EQ(left[i], 0);
     }
   }
@@ -48,13 +48,13 @@ TEST(Probes, AtAHingeOfAnElasticLawHaveItsRigidityTimesTheCurvature) { expect_li
 TEST(Probes, StayWhereTheClothIsHeldAndFallWhereItIsFree) {
   const FinishedRun run(kSwing + " --probe '0.009,0.011;0.08,0.02'");
   const fs::path probes = run.out / "probes.csv";
-  for (const double x : column(probes, "probe1_x [m]")) EXPECT_NEAR(x, 0.009, kRounding);
-  for (const double y : column(probes, "probe1_y [m]")) EXPECT_NEAR(y, 0.011, kRounding);
+  for (const double x : column(probes, "probe1_x [m]")) EXPECT_NEAR(x, 0.009, kFloatRounding);
+  for (const double y : column(probes, "probe1_y [m]")) EXPECT_NEAR(y, 0.011, kFloatRounding);
   for (const double z : column(probes, "probe1_z [m]")) EXPECT_EQ(z, 0);
-  EXPECT_NEAR(column(probes, "probe2_x [m]").front(), 0.08, kRounding);
+  EXPECT_NEAR(column(probes, "probe2_x [m]").front(), 0.08, kFloatRounding);
   EXPECT_LT(column(probes, "probe2_z [m]").back(), -0.01);
   const std::vector<double> fraction = column(probes, "probe1_friction_share");
-  EXPECT_LE(*std::max_element(fraction.begin(), fraction.end()), 1 + kRounding);
+  EXPECT_LE(*std::max_element(fraction.begin(), fraction.end()), 1 + kFloatRounding);
 }
 
 TEST(Probes, AreThoseOfTheRunThatIsRunAgainAndChangeNothingInIt) {
