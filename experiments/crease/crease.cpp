@@ -263,9 +263,9 @@ CreaseCase::CreaseCase(const CommandLine& line) {
 }
 
 void CreaseCase::fold_specimen() {
-  crease_ = is_pressed()            ? creased(flat_, choice_, plate_)
+  crease_ = is_pressed()                      ? creased(flat_, choice_, plate_)
             : choice_.fold == CreaseFold::rod ? wrapped(flat_, choice_)
-                                    : pleated(flat_, choice_);
+                                              : pleated(flat_, choice_);
   if (choice_.grow_after > 0)
     crease_.time_steps = growing_steps(crease_.times, crease_.scene.step, choice_.grow_after);
   setup.scene = crease_.scene;
@@ -325,7 +325,8 @@ void CreaseCase::note_angles(Session& session) const {
   run.metric("recovery_angle_deg", recovered_.opening);
   run.metric("law_recovery_angle_deg", recovered_.law ? recovered_.law->opening() : NAN);
   if (!recovered_.angle.empty()) run.metric("release_angle_deg", recovered_.angle.front());
-  if (choice_.standard != CreaseStandard::none) run.metric("recovery_angle_15_s_deg", recovered_.angle_at(15));
+  if (choice_.standard != CreaseStandard::none)
+    run.metric("recovery_angle_15_s_deg", recovered_.angle_at(15));
   if (choice_.grow_after > 0) write_recovery(run, recovered_);
   run.metric("residual_curvature_per_m", largest_curvature(crease_.scene, session.simulation()));
   if (!is_pressed()) return;

@@ -9,7 +9,7 @@ double barrier_stiffness(double thickness) {
 
 ObstacleResponse<double> obstacle_response(const Scene& scene) {
   ObstacleResponse<double> response{scene.fabric.thickness, 1,
-                                 scene.finds_equilibrium() ? kCrushed * scene.fabric.thickness : 0, 0};
+                                    scene.finds_equilibrium() ? kCrushed * scene.fabric.thickness : 0, 0};
   response.k = scene.contact_stiffness > 0 ? scene.contact_stiffness / response.stiffest()
                                            : barrier_stiffness(scene.fabric.thickness);
   if (response.last > 0) response.yield = distance_under(response, kYieldPressure);

@@ -11,7 +11,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kSummed = 1e-9;  // relative, of sums over many steps
+constexpr double kSummed = 1e-9;    // relative, of sums over many steps
 constexpr double kReleased = 1e-4;  // of M0: fatigue finds what weakening itself releases in two rounds
 
 Scene small_scene() {

@@ -138,7 +138,8 @@ TEST_F(PartRelief, IsOfTheMetricsPartAlone) {
 }
 
 TEST_F(PartRelief, IsRefusedWhereThereIsNone) {
-  EXPECT_TRUE(says(refused(drawing("ripled")), "must be flat | rippled (--render.part; did you mean rippled?)"));
+  EXPECT_TRUE(
+      says(refused(drawing("ripled")), "must be flat | rippled (--render.part; did you mean rippled?)"));
   EXPECT_TRUE(says(refused(drawing("corner")), "render.part = corner must be flat | rippled"));
   EXPECT_TRUE(
       says(refused(drawing("rippled --camera.direction \"0 1 0\"")), "has 0 pixels with nothing but cloth"));

@@ -59,8 +59,8 @@ TEST(Contact, HoldsAClothOnASlopeBelowTheFrictionAngleWithoutCreep) {
 TEST(Contact, LiesFlatOnTheGroundAtTheDepthThatBearsItsWeight) {
   const Trial trial = on_slope(0, 0.3);
   const double t = trial.scene.fabric.thickness,
-               sink = t - distance_under(obstacle_response(trial.scene),
-                                         trial.scene.fabric.density * kGravity);
+               sink =
+                   t - distance_under(obstacle_response(trial.scene), trial.scene.fabric.density * kGravity);
   for (const Vector3d& x : trial.after(300)->positions()) EXPECT_NEAR(t - x.z(), sink, 0.01 * sink);
 }
 
@@ -141,9 +141,8 @@ TEST(Contact, TableTakenAwayLetsItsClothFall) {
   trial.scene.obstacle[0].until = 0.1;
   const auto simulation = trial.after(100);
   const double resting = simulation->positions()[0].z();
-  EXPECT_NEAR(
-      resting,
-      distance_under(obstacle_response(trial.scene), trial.scene.fabric.density * kGravity), 1e-8);
+  EXPECT_NEAR(resting, distance_under(obstacle_response(trial.scene), trial.scene.fabric.density * kGravity),
+              1e-8);
   simulation->advance(100);
   const double fall = kGravity * 0.1 * 0.1 / 2;
   EXPECT_NEAR((resting - simulation->positions()[0].z()) / fall, 1, 0.02);
