@@ -179,14 +179,14 @@ TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
 // A shadow goes on below an inset, whose white would cut it off.
 TEST(ComparisonSheet, DrawsInsetsOverShadows) {
   ComparisonSheet sheet = sample_sheet(1, 1);
-  sheet.columns[0].cells[0].image = Image(400, 300, Rgb8{230, 230, 230});
+  sheet.columns[0].cells[0].image = Image(400, 300, Rgb8{230, 231, 232});
   sheet.columns[0].cells[0].loop = {.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
   const Image page = draw_comparison(sheet);
-  const Extent cell = color_extent(page, {230, 230, 230});
+  const Extent cell = color_extent(page, {230, 231, 232});
   int lighter = 0, loop = 0;
   for (int y = cell.top; y <= cell.bottom; ++y)
     for (int x = cell.left; x <= cell.right; ++x) {
-      lighter += page.at(x, y)[1] > 230;
+      lighter += page.at(x, y)[1] > 231;
       loop += page.at(x, y)[2] > page.at(x, y)[0] + 100;
     }
   EXPECT_GT(loop, 40);
