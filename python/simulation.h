@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "experiments/workbench/pictures/frame_source.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
-#include "experiments/workbench/pictures/subject.h"
 #include "python/values.h"
 #include "sim/base/own_thread.h"
 #include "sim/time/simulation.h"

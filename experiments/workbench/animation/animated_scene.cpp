@@ -1,7 +1,7 @@
 #include "experiments/workbench/animation/animated_scene.h"
 
+#include "experiments/workbench/pictures/frame_source.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
-#include "experiments/workbench/pictures/subject.h"
 #include "render/inset.h"
 #include "render/srgb.h"
 #include "sim/scene/body.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "experiments/workbench/pictures/fabric_look.h"
-#include "experiments/workbench/pictures/subject.h"
+#include "experiments/workbench/pictures/frame_source.h"
 #include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"

@@ -78,21 +78,21 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
                    std::optional<float> floor)
     : Pictures(setup, simulated(setup.scene, cloth, simulation, setup.options.reference), bounds, floor) {}
 
-Pictures::Pictures(const Setup& setup, std::unique_ptr<FrameSource> subject, const render::Box& bounds,
+Pictures::Pictures(const Setup& setup, std::unique_ptr<FrameSource> source, const render::Box& bounds,
                    std::optional<float> floor)
     : scene_(setup.scene),
       options_(setup.options),
-      subject_(std::move(subject)),
+      source_(std::move(source)),
       bounds_(bounds),
-      archived_frames_(setup, subject_->mesh(), bounds, floor),
+      archived_frames_(setup, source_->mesh(), bounds, floor),
       scene_renderer_([this, floor] {
-        return std::make_unique<SceneRenderer>(scene_, options_, subject_->mesh(), bounds_, floor,
-                                               subject_->cuda_device());
+        return std::make_unique<SceneRenderer>(scene_, options_, source_->mesh(), bounds_, floor,
+                                               source_->cuda_device());
       }) {
   scene_renderer_.run([this](SceneRenderer& studio) {
     renderer_ = studio.offscreen().description();
-    studio.view().share_positions(subject_->share_positions(studio.view().position_buffer(),
-                                                            studio.offscreen().cuda_device(), why_host_));
+    studio.view().share_positions(source_->share_positions(studio.view().position_buffer(),
+                                                           studio.offscreen().cuda_device(), why_host_));
   });
 }
 
@@ -127,18 +127,19 @@ std::string Pictures::captioned(const std::string& text) const {
 
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
                                 const std::string& text) {
-  take_positions(rounded(subject_->positions(), subject_->mesh().quantum));
-  const SceneRenderer::Shown shown{subject_->time(), subject_->values(look)};
+  take_positions(rounded(source_->positions(), source_->mesh().quantum));
+  const SceneRenderer::Shown shown{source_->time(), source_->values(look)};
   return scene_renderer_.run(
       [&](SceneRenderer& studio) { return single(studio, look, camera, text, shown); });
 }
 
 void Pictures::picture_file(const std::filesystem::path& file, const std::string& look,
                             const std::string& text) {
-  take_positions(rounded(subject_->positions(), subject_->mesh().quantum));
+  take_positions(rounded(source_->positions(), source_->mesh().quantum));
   scene_renderer_.post(
-      [=, this, shown = SceneRenderer::Shown{subject_->time(), subject_->values(look)}](
-          SceneRenderer& studio) { write(file, single(studio, look, camera(), text, shown)); });
+      [=, this, shown = SceneRenderer::Shown{source_->time(), source_->values(look)}](SceneRenderer& studio) {
+        write(file, single(studio, look, camera(), text, shown));
+      });
 }
 
 // Draws one picture on the studio's thread.
@@ -158,7 +159,7 @@ void Pictures::note_frame(Run& run, const std::vector<FrameJob>& orders, const s
   std::optional<Frames>& frames = run.manifest().frames;
   if (!frames) frames.emplace();
   frames->looks.clear();
-  Frames::Instant instant{subject_->time(), scene_.phase_at(subject_->time())};
+  Frames::Instant instant{source_->time(), scene_.phase_at(source_->time())};
   instant.difference_rms = difference;
   for (const FrameJob& order : orders) {
     frames->looks.push_back({order.look});
@@ -179,20 +180,20 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file, const s
   run.warn(
       fmt::format("from t = {:.3f} s on ({}) the cloth is cut off at the border of pictures: --camera.box "
                   "frames more",
-                  subject_->time(), file.lexically_relative(run.folder()).string()));
+                  source_->time(), file.lexically_relative(run.folder()).string()));
 }
 
 void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path& loop) {
   const Stopwatch waited(waited_seconds_);
   const std::vector<float> before = kept_.empty() ? std::vector<float>{} : kept_.last().xyz;
   ArchivedState instant{
-      subject_->time(), rounded(xyz, subject_->mesh().quantum, before), {}, loop.curvature.size(), {}};
+      source_->time(), rounded(xyz, source_->mesh().quantum, before), {}, loop.curvature.size(), {}};
   take_positions(instant.xyz);
   std::vector<FrameJob> orders;
   for (const std::string& look : options_.looks()) {
     orders.push_back({look,
                       run.path(frame_file(look, orders.empty(), frames_)),
-                      {instant.time, subject_->values(look)},
+                      {instant.time, source_->values(look)},
                       {.path = loop, .color = color_of_law(scene_.law)}});
   }
   watch_border(run, orders.front().file, instant.xyz);
@@ -200,13 +201,13 @@ void Pictures::frame(Run& run, const std::vector<float>& xyz, const render::Path
   std::optional<double> difference;
   for (FrameJob& order : orders) {
     if (order.shown.values.empty()) continue;
-    if (!subject_->has_values(order.look))
+    if (!source_->has_values(order.look))
       run.warn(
           "reference = " + options_.reference +
           " has no instant within half a step of some of this run's pictures: look difference is blank in "
           "these, and their root mean square is left out");
     else if (order.look == "difference")
-      difference = root_mean_square(order.shown.values, subject_->vertex_areas());
+      difference = root_mean_square(order.shown.values, source_->vertex_areas());
     order.shown.values = rounded(order.shown.values, archived_frames_.quantum(order.look));
     instant.values[order.look] = order.shown.values;
   }
@@ -241,7 +242,7 @@ render::Image Pictures::silhouette(double half_width, int pixels, double& metres
   const render::Box box{{-r, -r, bounds_.low.z()}, {r, r, bounds_.high.z()}};
   const render::Camera camera = render::Camera::top(box, 1);
   metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
-  const std::vector<float> xyz = subject_->positions();
+  const std::vector<float> xyz = source_->positions();
   return scene_renderer_.run([&](SceneRenderer& studio) { return studio.silhouette(xyz, camera, pixels); });
 }
 

@@ -12,8 +12,8 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/archived_frames.h"
 #include "experiments/workbench/pictures/archived_instants.h"
+#include "experiments/workbench/pictures/frame_source.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
-#include "experiments/workbench/pictures/subject.h"
 #include "render/contact_sheet.h"
 #include "render/loop_inset.h"
 #include "render/png_writer.h"
@@ -36,8 +36,8 @@ class Pictures {
   // `floor` is the height of the visible ground [m].
   Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
            std::optional<float> floor);
-  // Draws any subject, which the pictures then own.
-  Pictures(const Setup& setup, std::unique_ptr<FrameSource> subject, const render::Box& bounds,
+  // Draws any source of frames, which the pictures then own.
+  Pictures(const Setup& setup, std::unique_ptr<FrameSource> source, const render::Box& bounds,
            std::optional<float> floor);
 
   const std::string& renderer() const { return renderer_; }
@@ -121,7 +121,7 @@ class Pictures {
 
   Scene scene_;
   Options options_;
-  std::unique_ptr<FrameSource> subject_;
+  std::unique_ptr<FrameSource> source_;
   render::Box bounds_;
   ArchivedFrames archived_frames_;
   std::string why_host_;  // why positions pass the host; empty if they do not

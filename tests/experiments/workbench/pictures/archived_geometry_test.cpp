@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "experiments/workbench/pictures/subject.h"
+#include "experiments/workbench/pictures/frame_source.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {

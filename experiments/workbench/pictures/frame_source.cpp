@@ -1,4 +1,4 @@
-#include "experiments/workbench/pictures/subject.h"
+#include "experiments/workbench/pictures/frame_source.h"
 
 #include <fmt/core.h>
 
