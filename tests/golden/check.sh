@@ -22,10 +22,12 @@ mesa=/usr/share/glvnd/egl_vendor.d/50_mesa.json
 
 browser=$(command -v "${CHROMIUM:-chromium}" chromium-browser google-chrome | head -1 || true)
 
-# screenshot PAGE PNG: the page as a window of golden_window shows it.
+# screenshot PAGE PNG: the page as a window of golden_window shows it, after its scripts have come to rest: the cloth that
+# can be turned is unpacked behind the first layout.
 screenshot() {
   "$browser" --headless --no-sandbox --disable-gpu --hide-scrollbars --force-device-scale-factor=1 \
-    --user-data-dir="$folder/.browser" --window-size="$golden_window" --screenshot="$2" "file://${1// /%20}" \
+    --user-data-dir="$folder/.browser" --window-size="$golden_window" --virtual-time-budget=10000 \
+    --screenshot="$2" "file://${1// /%20}" \
     >/dev/null 2>&1
 }
 
