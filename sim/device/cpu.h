@@ -58,7 +58,7 @@ inline int part_begin(int n, int k, int parts) { return static_cast<int>(static_
 // copied: stores of the loop cannot change the copy, so that its numbers stay in registers.
 template <class Body>
 HYST_NOINLINE void run_serially(int begin, int end, const Body& body) {
-  const Body own = body;
+  const Body own = body;  // NOLINT(performance-unnecessary-copy-initialization)
   for (int i = begin; i < end; ++i) own(i);
 }
 
@@ -85,7 +85,7 @@ void for_each_alone(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
 // Computes the partial sums of the blocks [first, last).
 template <int K, class Body>
 HYST_NOINLINE void sum_serially(int first, int last, int n, const Body& body, double* partial) {
-  const Body own = body;
+  const Body own = body;  // NOLINT(performance-unnecessary-copy-initialization)
   for (int b = first; b < last; ++b) {
     Sums<K> sums;
     const int end = std::min(n, (b + 1) * kSumBlock);
