@@ -35,9 +35,11 @@ inline std::uint16_t srgb16_of_linear(float light) {
     std::vector<std::uint16_t> values(kLast + 1);
     for (int i = 0; i <= kLast; ++i)
       values[i] =
+          // NOLINTNEXTLINE(bugprone-incorrect-roundings): no value is negative
           static_cast<std::uint16_t>(255 * 256 * srgb_of_linear(static_cast<float>(i) / kLast) + 0.5f);
     return values;
   }();
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   return table[static_cast<size_t>(kLast * std::clamp(light, 0.0f, 1.0f) + 0.5f)];
 }
 
