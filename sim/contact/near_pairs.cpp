@@ -11,12 +11,6 @@ constexpr double kReachOfEdge = 0.2;       // largest reach of lists beyond a pa
 constexpr double kPressedNearer = 0.9;  // share of their distance that a guess leaves pressed layers at least
 constexpr double kSafely = 1.01;        // exceeds the rounding of distances beside the thickness
 
-double mean_edge(const ClothMesh& mesh) {
-  double sum = 0;
-  for (const Edge& e : mesh.edge) sum += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
-  return sum / static_cast<double>(mesh.edge.size());
-}
-
 }  // namespace
 
 template <class Real, class Device>
@@ -27,9 +21,9 @@ NearPairs<Real, Device>::NearPairs(Device& device, const ClothMesh& cloth, const
       all_(all.vertices()),
       least_reach_(static_cast<Real>(scene.fabric.thickness) / 4),
       most_reach_(std::max(static_cast<Real>(scene.fabric.thickness),
-                           static_cast<Real>(kReachOfEdge * mean_edge(cloth)))),
+                           static_cast<Real>(kReachOfEdge * cloth.mean_edge_in_space()))),
       max_displacement_(std::max(4 * static_cast<Real>(scene.fabric.thickness),
-                                 static_cast<Real>(kDisplacementOfEdge * mean_edge(cloth)))),
+                                 static_cast<Real>(kDisplacementOfEdge * cloth.mean_edge_in_space()))),
       pairs_(device, all, scene.fabric.thickness, cloth_, scene.self_contact),
       center_(device, all_),
       length_(device),

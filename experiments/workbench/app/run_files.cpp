@@ -123,8 +123,7 @@ void remove_empty_folders(const fs::path& folder, const std::vector<fs::path>& n
 
 bool has_mark(const fs::path& file, const std::string& mark) {
   std::error_code ignored;
-  return fs::is_regular_file(file, ignored) &&
-         whole_file(file, "cannot read " + file.string()).find(mark) != std::string::npos;
+  return fs::is_regular_file(file, ignored) && whole_file(file).find(mark) != std::string::npos;
 }
 
 void require_own_file(const fs::path& file, const std::string& mark, const std::string& what,

@@ -61,7 +61,7 @@ fs::path place_of(const InputRecord& input) {
 std::optional<std::string> hash_of(const fs::path& file) {
   const WorkingFor nobody(nullptr);  // a comparison does not count as reading the file for the request
   try {
-    const std::string bytes = whole_file(file, "cannot read " + file.string());
+    const std::string bytes = whole_file(file);
     return hash_text(fnv1a(bytes.data(), bytes.size()));
   } catch (const Error&) {
     return {};

@@ -79,8 +79,7 @@ std::string found_build() {
   std::string build;
   dl_iterate_phdr(take_build_id, &build);
   if (!build.empty()) return build;
-  const std::filesystem::path executable = "/proc/self/exe";
-  const std::string bytes = whole_file(executable, "cannot read " + executable.string());
+  const std::string bytes = whole_file("/proc/self/exe");
   return fmt::format("{:016x}", fnv1a(bytes.data(), bytes.size()));
 }
 
