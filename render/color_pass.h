@@ -20,7 +20,7 @@ class ColorPass {
   // Takes the look of pictures to come.
   void set_look(const Look& look);
 
-  // What surfaces are lit by, and where.
+  // The light on surfaces, and the pixels that it is computed for.
   struct Lit {
     const LightPass& light;
     const LitPixels* pixels;  // null: all

@@ -14,7 +14,7 @@
 
 namespace hysteron::render {
 
-// What decides how much smaller than they are obstacles are drawn (inset.h) [m].
+// These lengths decide how much smaller than they are obstacles are drawn (inset.h) [m].
 struct ObstacleFit {
   float cloth_side;                    // long_side() of the cloth
   float least_inset;                   // Look::obstacle_inset

@@ -1,4 +1,4 @@
-// What the passes of a picture draw: the cloth, obstacles and the ground, in a look.
+// The scene that the passes of a picture draw: the cloth, obstacles and the ground, in a look.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,7 +11,7 @@
 
 namespace hysteron::experiments {
 
-// What a column differs in from the one that compare.to names.
+// Names the quantity that is shown of the difference between a column and the one that compare.to names.
 enum class Difference { picture, curvature };
 constexpr std::array<const char*, 2> names(Difference) { return {"picture", "curvature"}; }
 

@@ -350,7 +350,7 @@ void DrapeCase::note_coefficient(Run& run, const DrapeOutlines& outlines, bool s
   run.metric("node_count", outline.nodes(kProminence));
   run.metric("settled", settled);
   run.metric("settling_limit_m_per_s", choice_.still);
-  // What bringing the cloth to rest has moved: what its last motion could still have changed.
+  // Bringing the cloth to rest has moved it by this, the most that its last motion could still have changed.
   if (setup.scene.is_implicit()) run.metric("rest_shift_percent", draping_.change);
   if (outlines.first) run.metric("outline_overlap", overlap(*outlines.first, outline));
 }

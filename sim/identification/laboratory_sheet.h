@@ -54,7 +54,7 @@ struct SheetRow {
 struct LaboratorySheet {
   std::string name;                     // of the fabric: in the sheet, or that of its file
   std::map<std::string, SheetRow> row;  // by "B", "2HB", "G", ...
-  std::vector<std::string> warnings;    // doubts by row and column
+  std::vector<std::string> warnings;    // by row and column
 
   bool has(const std::string& quantity) const { return row.contains(quantity); }
   double along(const std::string& quantity, SheetColumn column) const;  // kNone: not there

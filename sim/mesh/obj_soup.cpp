@@ -27,7 +27,7 @@ struct Face {
   int line;
 };
 
-// What a file says, line by line: faces may use vertices that come later.
+// The records of a file, in the order of its lines: faces may use vertices that come later.
 struct Records {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<Eigen::Vector2d> texture;

@@ -19,7 +19,7 @@ using B = BendingParts;
 using P = InPlaneStops;
 
 // clang-format off
-// What a cloth's keys, a fabric's, the solver's and the machine's have in common.
+// Keys of a cloth have these traits in common, so have those of a fabric, of the solver and of the machine.
 constexpr KeyTraits kCloth{.group = KeyGroup::scene};
 constexpr KeyTraits kClothFile{.group = KeyGroup::scene, .file = NamesFile::one};
 constexpr KeyTraits kFabric{.group = KeyGroup::fabric};

@@ -39,7 +39,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
 
     bool is_shortest() const { return halvings == kMaxHalvings; }
   };
-  // What is left of a part where a stage of it found no equilibrium.
+  // A stage of a part found no equilibrium: this is left of the part.
   struct Failure {
     Part rest;
     NewtonOutcome outcome;

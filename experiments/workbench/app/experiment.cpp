@@ -94,7 +94,7 @@ Error with_owner(const Error& error, const Keys& known) {
 }
 
 // Limits the memory of the process [MB]; 0: no limit.  An allocation beyond it throws std::bad_alloc, which
-// ends the run (ending.h).
+// ends the run (exit_status.h).
 void limit_memory(double megabytes) {
   if (megabytes == 0) return;
   rlimit limit{};

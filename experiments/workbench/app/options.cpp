@@ -22,7 +22,7 @@ constexpr KeyTraits kPicture{.scope = Scope::output, .group = KeyGroup::pictures
 constexpr KeyTraits kRun{.scope = Scope::run, .group = KeyGroup::running};
 constexpr KeyTraits kPlace{.scope = Scope::run, .group = KeyGroup::running, .takers = Takers::all, .in_columns = InColumns::leave};
 
-// Of the run itself alone, not of its repeats for errors.
+// Returns the traits of a key that the run itself has, and its repeats for errors have not.
 constexpr KeyTraits once(KeyTraits traits) {
   traits.repeats = false;
   return traits;
