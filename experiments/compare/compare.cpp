@@ -118,8 +118,7 @@ void read_flags(const CommandLine& line, CompareParams& choice, Options& options
   for (const Flag& flag : line.flags)
     for (const Keys* keys : {&own, &general})
       for (const BoundKey& key : *keys)
-        if (key.description.path == flag.path)
-          assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+        if (key.description.path == flag.path) assign(key, flag.value, "--" + flag.path);
   KeyValues values = key_values(own);
   values.merge(key_values(general));
   refuse_unread_flags(line, values);
@@ -133,7 +132,7 @@ void take_scene_options(CommandLine& inner, Options& options) {
   const Options of_scene = setup_of_file(inner).options;
   const bool draws = last_text(inner.flags, "no-images", of_scene.no_images ? "true" : "false") != "true";
   options.no_images = !draws;
-  if (!draws) inner.flags.push_back({"no-images", "true"});
+  if (!draws) inner.flags.push_back({"no-images", true});
   if (last_text(inner.flags, "look", "").empty() && of_scene.look != options.look) {
     options.look = of_scene.look;
     inner.flags.push_back({"look", of_scene.look});

@@ -27,14 +27,13 @@ bool is_own(const Flag& flag) {
 // Adds flags for the stiffnesses of the parts that a fabric has.
 void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   const auto add = [&](const char* table, const std::vector<double>& stiffnesses) {
-    std::string list;
-    for (double p : stiffnesses) list += (list.empty() ? "" : " ") + number_text(p);
-    if (!list.empty()) flags.push_back({std::string("fabric.bending.") + table + ".stiffnesses", list});
+    const std::string key = std::string("fabric.bending.") + table + ".stiffnesses";
+    if (!stiffnesses.empty()) flags.push_back({key, stiffnesses});
   };
   add("stops", parts.stops.stiffnesses);
   add("stops.weft", parts.weft_stops.stiffnesses);
   add("branches", parts.branches.stiffnesses);
-  if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", number_text(parts.set.hardening)});
+  if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", parts.set.hardening});
 }
 
 // Returns the keys of bending of a column's scene before any matching, by the experiment's defaults,
@@ -65,7 +64,7 @@ LawRequest reference_request(const std::vector<Scene>& scenes, const std::vector
   std::optional<std::size_t> best;
   const auto rank = [&](std::size_t v) {
     std::string keys;
-    for (const Flag& flag : variants[v].flags) keys += flag.path + "=" + flag.text + "\n";
+    for (const Flag& flag : variants[v].flags) keys += flag.path + "=" + flag.text() + "\n";
     return std::tuple(scenes[v].fabric.name != column.fabric.name, variants[v].flags.size(), keys);
   };
   for (std::size_t v = 0; v < scenes.size(); ++v)
@@ -85,7 +84,7 @@ std::vector<Flag> matched(const Scene& column, const LawRequest& reference, cons
   if (choice.match == Match::fabric) return {};
   const Fabric& fabric = column.fabric;
   scale = matching_scale(requested_law(column), reference, choice.match, choice.match_curvature);
-  const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
+  const auto scaled = [&](const char* key, double value) { return Flag{key, scale * value}; };
   BendingParts parts = stiffened(fabric.bending, scale);
   std::vector<Flag> flags = {scaled("fabric.b2", fabric.b2)};  // b1 follows from stops, which replace it
   if (fabric.bending.stops.empty()) flags.insert(flags.begin(), scaled("fabric.b1", fabric.b1));
@@ -105,7 +104,7 @@ void refuse_rescaled(const Variant& variant, double scale, const CompareParams& 
   if (scale == 1) return;
   for (const Flag& flag : variant.flags)
     if (std::ranges::find(kStiffnesses, flag.path) != std::end(kStiffnesses))
-      throw Error::invalid_input("column " + variant.name + ": " + flag.path + " = " + flag.text +
+      throw Error::invalid_input("column " + variant.name + ": " + flag.path + " = " + flag.text() +
                                  " would be multiplied by " + number_text(scale, 4) +
                                  ", since compare.match = " + enum_name(choice.match) +
                                  " gives the column a stiffness: --compare.match fabric leaves it as it is")
@@ -116,7 +115,10 @@ void refuse_rescaled(const Variant& variant, double scale, const CompareParams& 
 Flag shared_range(const CommandLine& inner, const std::vector<Scene>& columns) {
   double most = 0;
   for (const Scene& column : columns) most = std::max(most, column.fabric.friction_curvature());
-  return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * most))};
+  Flag range = {"curvature-range", 2 * most};
+  for (const Flag& flag : inner.flags)
+    if (flag.path == range.path) range = flag;
+  return range;
 }
 
 // Returns the flags that the page adds to those of the experiment alone.

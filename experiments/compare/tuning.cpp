@@ -21,9 +21,10 @@ std::string geometric_middle(const std::string& low, const std::string& high) {
 }
 
 // The first column with one more key, "linear+fabric.damping=1e-3", by a name that none of the others has.
-Variant with_key(const std::vector<Variant>& variants, const std::string& key, const std::string& number) {
+Variant with_key(const std::string& experiment, const std::vector<Variant>& variants, const std::string& key,
+                 const std::string& number) {
   Variant variant = variants.at(0);
-  variant.flags.push_back({key, number});
+  variant.flags.push_back(parsed_flag(experiment, key, number));
   const std::string name = folder_name(variant.name + "+" + key + "=" + number);
   variant.name = name;
   const auto is_taken = [&] {
@@ -49,9 +50,10 @@ double metric_in(const ChildRun& column, const std::string& metric) {
 Plan tried_columns(const CommandLine& inner, const std::vector<Variant>& variants, CompareParams choice,
                    const Options& options, const std::string& key, const std::string& number) {
   CommandLine line = inner;
-  line.flags = override_flags(without_unread_flags(line, "no-images", "true"), {{"no-images", "true"}});
+  const Flag no_images = {"no-images", true};
+  line.flags = override_flags(without_unread_flags(line, no_images), {no_images});
   choice.to.clear();
-  return comparison_plan(line, {with_key(variants, key, number), variants[1]}, choice,
+  return comparison_plan(line, {with_key(inner.experiment, variants, key, number), variants[1]}, choice,
                          std::filesystem::path(options.out) / "tries");
 }
 
@@ -138,7 +140,7 @@ Json tune_first_column(Run& run, const CommandLine& inner, std::vector<Variant>&
     return own - target;
   };
   const std::string number = tuned(tuning, excess);
-  variants[0] = with_key(variants, tuning.key, number);
+  variants[0] = with_key(inner.experiment, variants, tuning.key, number);
   (options.json ? std::cerr : std::cout) << tuning.key << "=" << number << std::endl;
   constexpr double kMissed = 1;  // [%]
   if (std::abs(missed[number]) > kMissed)

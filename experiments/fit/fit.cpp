@@ -426,7 +426,7 @@ int run_fit(const CommandLine& line) {
   FitFlags flags;
   flags.options.out = "out/" + line.experiment;
   const Keys keys = bind_flags(flags);
-  for (const Flag& flag : line.flags) assign_text(keys, flag.path, flag.text, "--" + flag.path);
+  for (const Flag& flag : line.flags) assign_flag(keys, flag);
   if (flags.wants_template) {
     print_template(line, flags);
     return 0;

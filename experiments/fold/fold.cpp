@@ -274,7 +274,7 @@ std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws,
   for (const Variant& law : laws) {
     const bool twice = tires(last_text(law.flags, "law", default_law));
     Variant sound = law;
-    if (twice || has_flag) sound.flags.push_back({"fold.fatigue", "0"});
+    if (twice || has_flag) sound.flags.push_back({"fold.fatigue", 0});
     all.push_back(sound);
     if (twice) all.push_back({law.name + "-fatigue", law.flags});
   }

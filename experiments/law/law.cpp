@@ -247,12 +247,12 @@ constexpr const char* kResultsMark = ",moment [N],tangent [N m],stored [J/m2],di
 LawFlags read_flags(const CommandLine& line) {
   LawFlags flags;
   const Keys keys = bind(kRows, flags);
-  const auto apply = [&](const Flag& flag) { assign_text(keys, flag.path, flag.text, "--" + flag.path); };
+  const auto apply = [&](const Flag& flag) { assign_flag(keys, flag); };
   for (const Flag& flag : line.flags)
     if (flag.path == "fabric") apply(flag);
   Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
   for (const Flag& flag : line.flags) {
-    const std::optional<double> k0 = flag.path == "k0" ? number_in(flag.text) : std::nullopt;
+    const auto* k0 = flag.path == "k0" ? std::get_if<double>(&flag.value) : nullptr;
     if (!k0 || !fabric.kes.gives_numbers()) continue;
     fabric.k0 = *k0;
     fabric.follow_kes();  // so that B and 2HB stay

@@ -33,8 +33,9 @@ void apply_flags(const CommandLine& line, Options& options) {
       continue;  // these are options of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
       throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
-          .with_key(flag.path, flag.text);
-    assign_text(keys, path, flag.text, "--" + flag.path);
+          .with_key(flag.path, flag.text());
+    const std::string origin = "--" + flag.path;
+    assign(find_key(keys, path, origin), flag.value, origin);
   }
   if (options.out.empty()) options.out = kOut;
 }

@@ -413,7 +413,7 @@ CommandLine from_within(CommandLine line) {
   line.positionals = columns;
   for (const auto& [path, text] : recorded->spec->flags)
     if (!simulation_traits(path).is_of_page() && last_text(line.flags, path, "").empty())
-      line.flags.push_back({path, text});
+      line.flags.push_back(parsed_flag(line.experiment, path, text));
   return line;
 }
 

@@ -125,15 +125,15 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n
   return drawn;
 }
 
-Flag flag_of(const std::string& key, const std::string& value) {
-  if (!key.starts_with("param.")) return {key, value};
+Flag flag_of(const std::string& experiment, const std::string& key, const std::string& value) {
+  if (!key.starts_with("param.")) return parsed_flag(experiment, key, value);
   return {"param", key.substr(6) + "=" + value};
 }
 
 CommandLine run_command_line(const Study& study, const StudyRun& run) {
   CommandLine line{study.experiment, "hysteron " + study.experiment, study.shared, {}};
   for (std::size_t a = 0; a < study.axes.size(); ++a)
-    line.flags.push_back(flag_of(study.axes[a].key, run.values[a]));
+    line.flags.push_back(flag_of(study.experiment, study.axes[a].key, run.values[a]));
   // Drops the seed of a structured mesh, which is the same in every repetition.
   if (last_text(line.flags, "mesh", "random") != "random")
     std::erase_if(line.flags, [](const Flag& flag) { return flag.path == kSeedKey; });
@@ -142,7 +142,7 @@ CommandLine run_command_line(const Study& study, const StudyRun& run) {
 
 Json study_record(const Study& study) {
   Json shared = Json::array(), axes = Json::array();
-  for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text);
+  for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text());
   for (const StudyAxis& axis : study.axes) {
     axes.push_back({{"key", axis.key}, {"values", axis.values}});
     if (axis.logarithmic) axes.back()["scale"] = "log";

@@ -58,8 +58,9 @@ std::vector<StudyRun> runs_on_axes(const std::vector<StudyAxis>& axes);
 // numbers on every machine.
 std::vector<std::vector<double>> latin_hypercube(std::size_t axes, std::size_t n, std::uint64_t seed);
 
-// Returns the flag that sets a study's key to this value: {"param", "stack=8"} for "param.stack".
-Flag flag_of(const std::string& key, const std::string& value);
+// Returns the flag of the experiment that sets a study's key to this value: {"param", "stack=8"} for
+// "param.stack".
+Flag flag_of(const std::string& experiment, const std::string& key, const std::string& value);
 // Returns the command line of a run.
 CommandLine run_command_line(const Study& study, const StudyRun& run);
 

@@ -192,14 +192,14 @@ class StudyFile {
       if (fixed_keys.path == key)
         throw refusal(node, key + " cannot be set: " + fixed_key_message(study_.experiment, fixed_keys))
             .with_key(key, "");
-    return find_key(keys_, key_of_flag(flag_of(key, "").path), at(node)).description;
+    return find_key(keys_, key_of_flag(flag_of(study_.experiment, key, "").path), at(node)).description;
   }
 
   void check_value(const std::string& key, const KeyDescription& description, const std::string& value,
                    const ValueTree& node) const {
     Scratch scratch;
-    const std::string text = flag_of(key, value).text;
-    assign({description, scratch.field(description.type)}, parse_text(description, text), at(node));
+    const Flag flag = flag_of(study_.experiment, key, value);
+    assign({description, scratch.field(description.type)}, flag.value, at(node));
     if (description.path == "fabric.name") find_asset("fabrics", value, key + ", " + at(node));
     if (key == "scene") find_asset("scenes", value, key + ", " + at(node));
     const std::vector<std::string> laws = law_names();
@@ -217,7 +217,7 @@ class StudyFile {
       const KeyDescription& description = known_key(key, child);
       const std::string value = one_value(child, key);
       check_value(key, description, value, child);
-      study_.shared.push_back(flag_of(key, value));
+      study_.shared.push_back(flag_of(study_.experiment, key, value));
       set_.insert(key);
     }
   }

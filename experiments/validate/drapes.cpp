@@ -43,15 +43,15 @@ std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
                            {"law", drape.law},
                            {"drape.standard", enum_name(drape.standard)},
                            {"drape.release", enum_name(drape.release)},
-                           {"triangles", std::to_string(drape.triangles)},
-                           {"step", number_text(flags.step)},
-                           {"tolerance", number_text(flags.tolerance)},
+                           {"triangles", drape.triangles},
+                           {"step", flags.step},
+                           {"tolerance", flags.tolerance},
                            {"device", enum_name(flags.device)}};
-  if (flags.seconds > 0) own.push_back({"seconds", number_text(flags.seconds)});
+  if (flags.seconds > 0) own.push_back({"seconds", flags.seconds});
   if (flags.options.quick) {
-    if (drape.release != DrapeRelease::dropped) own.push_back({"drape.lowering", "0.3"});
-    if (drape.release == DrapeRelease::shaken) own.push_back({"drape.shakes", "1"});
-    if (!(flags.seconds > 0)) own.push_back({"seconds", "1.4"});
+    if (drape.release != DrapeRelease::dropped) own.push_back({"drape.lowering", 0.3});
+    if (drape.release == DrapeRelease::shaken) own.push_back({"drape.shakes", 1});
+    if (!(flags.seconds > 0)) own.push_back({"seconds", 1.4});
   }
   own.insert(own.end(), drape.further.begin(), drape.further.end());
   return own;
@@ -59,7 +59,7 @@ std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags) {
 
 void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run) {
   CommandLine line{"drape", "", {}, {}};
-  if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
+  if (flags.options.no_images) line.flags.push_back({"no-images", true});
   std::vector<ChildRun> columns;
   for (const Drape& drape : drapes)
     columns.push_back(child_run(drape.name(), line, drape_flags(drape, flags), run.folder()));

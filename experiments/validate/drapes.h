@@ -70,7 +70,7 @@ std::map<std::string, double> measured_on(DrapeStandard standard, const Fabric& 
 
 // Returns the drape according to the flags, on the tester that the fabric's file names.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);
-// Returns the flags for the subcommand `drape`, with numbers in full precision.
+// Returns the flags for the subcommand `drape`.
 std::vector<Flag> drape_flags(const Drape& drape, const ValidateFlags& flags);
 // Runs each drape in a folder of the run, side by side, and repeats their warnings.  Throws Error::simulation
 // if one of them cannot go on.

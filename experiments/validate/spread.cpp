@@ -280,7 +280,7 @@ void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
 
 std::vector<Flag> drape_flags(const Sample& sample) {
   std::vector<Flag> flags;
-  for (const auto& [key, value] : sample) flags.push_back({"fabric." + key, number_text(value)});
+  for (const auto& [key, value] : sample) flags.push_back({"fabric." + key, value});
   return flags;
 }
 

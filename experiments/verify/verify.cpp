@@ -220,7 +220,7 @@ std::vector<ChildRun> repeated_columns(std::vector<RepeatedRun>& runs, const Ver
           .with_key("out", options.out);
     run.files = comparable_files(run.recorded.manifest, folder, !options.no_images);
     std::vector<Flag> later;
-    if (run.files.pictures.empty()) later.push_back({"no-images", "true"});
+    if (run.files.pictures.empty()) later.push_back({"no-images", true});
     if (!choice.device.empty()) later.push_back({"device", choice.device});
     try {
       const CommandLine line = line_that_repeats(run.recorded, later, false);

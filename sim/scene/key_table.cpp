@@ -27,7 +27,7 @@ std::string type_name(const Field& field) {
   return kNames[field.index()];
 }
 
-std::string value_text(const Value& value) {
+std::string quoted_text(const Value& value) {
   return std::visit(
       Overload{[](bool x) { return std::string(x ? "true" : "false"); },
                [](std::int64_t x) { return std::to_string(x); }, [](double x) { return number_text(x); },
@@ -59,7 +59,7 @@ Error wrong_type(const KeyDescription& key, const Value& value, const std::strin
     if (!key.unit.empty()) must += " [" + key.unit + "]";
   }
   if (!key.choices.empty()) must += ": " + join(key.choices, " | ");
-  return refusal(key, value_text(value), must, origin);
+  return refusal(key, quoted_text(value), must, origin);
 }
 
 void check_number(const KeyDescription& key, double x, const std::string& shown, const std::string& origin) {
@@ -88,7 +88,7 @@ std::int64_t as_integer(const KeyDescription& key, const Value& value, const std
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
   const auto* number = std::get_if<double>(&value);
   if (!number || *number != std::floor(*number)) throw wrong_type(key, value, origin);
-  if (std::abs(*number) > kExact) check_number(key, *number, value_text(value), origin);
+  if (std::abs(*number) > kExact) check_number(key, *number, quoted_text(value), origin);
   if (std::abs(*number) > kExact) throw wrong_type(key, value, origin);
   return static_cast<std::int64_t>(*number);
 }
@@ -116,7 +116,7 @@ void assign_integer(const KeyDescription& key, Integer& target, const Value& val
 const Numbers& as_numbers(const KeyDescription& key, const Value& value, const std::string& origin) {
   const auto* numbers = std::get_if<Numbers>(&value);
   if (!numbers || (key.type == "vector" && numbers->size() != 3)) throw wrong_type(key, value, origin);
-  for (double x : *numbers) check_number(key, x, value_text(value), origin);
+  for (double x : *numbers) check_number(key, x, quoted_text(value), origin);
   return *numbers;
 }
 
@@ -195,7 +195,7 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
                       [&](unsigned* target) { assign_integer(what, *target, value, origin); },
                       [&](double* target) {
                         const double x = as_number(what, value, origin);
-                        check_number(what, x, value_text(value), origin);
+                        check_number(what, x, quoted_text(value), origin);
                         *target = x;
                       },
                       [&](Eigen::Vector3d* target) {
@@ -224,6 +224,16 @@ Value parse_text(const KeyDescription& key, const std::string& text) {
   if (key.type == "numbers" && (text == "[]" || !parse_components(text).empty()))
     return parse_components(text);
   return text;
+}
+
+std::string value_text(const Value& value) {
+  if (const auto* numbers = std::get_if<Numbers>(&value)) {
+    std::vector<std::string> words;
+    for (double component : *numbers) words.push_back(number_text(component));
+    return words.empty() ? "[]" : join(words, " ");
+  }
+  const auto* text = std::get_if<std::string>(&value);
+  return text ? *text : quoted_text(value);
 }
 
 const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin) {

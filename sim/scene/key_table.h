@@ -61,10 +61,10 @@ using Numbers = std::vector<double>;
 using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*,
                            NamedValue, Numbers*>;
 
-// What a key says beside its value: who takes it, and what has to follow from another value.  A row states
-// where it differs from a key of an experiment's own, which is part of what is simulated and recorded.
+// The traits of a key say who takes it and on which other values it depends.  A row states where it differs
+// from a key of an experiment's own, which is part of what is simulated and recorded.
 
-// What changes with the key.
+// The scope of a key names all that changes with it.
 enum class Scope {
   states,  // what is simulated, and what an experiment finds
   output,  // what is drawn, exported and counted of it
@@ -87,7 +87,7 @@ enum class Takers {
   all,          // files and tools
 };
 
-// What the columns of a page, which are runs of a sweep or a comparison, do with the key.
+// The columns of a page are runs of a sweep or a comparison; a key can differ between them, or be shared.
 enum class InColumns {
   vary,   // each can have a value of its own
   list,   // in addition several names in one flag make columns
@@ -185,6 +185,8 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin);
 // Turns a flag's text into the value that a file would hold: numbers in C notation, vectors and lists as
 // numbers apart by spaces or commas.  Any other text stays text (and is refused by assign).
 Value parse_text(const KeyDescription& key, const std::string& text);
+// Returns the shortest text from which parse_text() returns the value: "true", "1e-05", "0 0 1", "bdf2".
+std::string value_text(const Value& value);
 
 // Finds a key; throws Error::invalid_input for an unknown key, naming the nearest known one.
 const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin);

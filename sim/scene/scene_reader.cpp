@@ -67,8 +67,8 @@ class SceneKeys {
     for (const Flag& flag : flags) {
       const std::string origin = "--" + flag.path;
       const BoundKey& key = find_key(known_, key_of_flag(flag.path), origin);
-      set(key, parse_text(key.description, flag.text), origin);
-      if (flag.path == "param") scene_.origin["param." + flag.text.substr(0, flag.text.find('='))] = origin;
+      set(key, flag.value, origin);
+      if (flag.path == "param") note_parameter(flag.text(), origin);
     }
     repeat_motions(scene_);
   }
@@ -97,6 +97,10 @@ class SceneKeys {
                                  ")");
     }
     set(key, node.value, origin);
+  }
+
+  void note_parameter(const std::string& name_and_value, const std::string& origin) {
+    scene_.origin["param." + name_and_value.substr(0, name_and_value.find('='))] = origin;
   }
 
   void set(const BoundKey& key, const Value& value, const std::string& origin) {

@@ -11,11 +11,14 @@ namespace hysteron {
 
 struct ValueTree;
 
-// A flag and its text: "--fabric.b2 1e-5" is {"fabric.b2", "1e-5"}; "--param stops=16" is {"param",
-// "stops=16"}.
+// A flag and its value: "--fabric.b2 1e-5" is {"fabric.b2", 1e-5}; "--param stops=16" is {"param",
+// "stops=16"}.  Where a command line, a study or a record has a text, it is parsed once, as its key's type
+// says (parsed_flag() of experiments/workbench/app/experiment.h).
 struct Flag {
   std::string path;
-  std::string text;
+  Value value;
+
+  std::string text() const { return value_text(value); }
   bool operator==(const Flag&) const = default;
 };
 

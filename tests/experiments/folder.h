@@ -41,7 +41,7 @@ inline std::string out_flag(const fs::path& out) { return " --out " + out.string
 
 // The exit code of an experiment with these flags, which writes into `out` without pictures and progress.
 inline int run_into(const fs::path& out, const std::string& experiment, std::vector<Flag> flags) {
-  flags.insert(flags.end(), {{"out", out.string()}, {"no-images", "true"}, {"quiet", "true"}});
+  flags.insert(flags.end(), {{"out", out.string()}, {"no-images", true}, {"quiet", true}});
   return run_experiment({experiment, "hysteron " + experiment, std::move(flags), {}});
 }
 // Metrics of such a run, which ends well.

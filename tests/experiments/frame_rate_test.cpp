@@ -1,5 +1,6 @@
 // No result depends on the rate of pictures: every experiment that simulates runs at several of them.
 #include <map>
+#include <optional>
 
 #include "tests/experiments/folder.h"
 
@@ -9,15 +10,15 @@ namespace {
 // The quickest forms, where others than kOthers; each has to cover what its experiment reads on the way.
 const std::map<std::string, std::vector<Flag>> kQuickest = {
     {"drape",  // settles before its time is over
-     {{"triangles", "60"}, {"drape.lowering", "0.1"}, {"seconds", "1.5"}, {"drape.still", "0.4"}}},
-    {"swing", {{"triangles", "60"}, {"seconds", "1.2"}}},
-    {"crease", {{"triangles", "60"}, {"crease.fold", "pleat"}, {"crease.recovery", "0.1"}}},
-    {"fold", {{"triangles", "60"}, {"fold.cycles", "2"}}},
-    {"crumple", {{"triangles", "100"}, {"seconds", "0.1"}}},
-    {"buckle", {{"triangles", "60"}}},
-    {"cantilever", {{"triangles", "60"}}},
-    {"run", {{"scene", "hanging-square"}, {"triangles", "60"}}}};
-const std::vector<Flag> kOthers = {{"triangles", "60"}, {"seconds", "0.1"}};
+     {{"triangles", 60}, {"drape.lowering", 0.1}, {"seconds", 1.5}, {"drape.still", 0.4}}},
+    {"swing", {{"triangles", 60}, {"seconds", 1.2}}},
+    {"crease", {{"triangles", 60}, {"crease.fold", "pleat"}, {"crease.recovery", 0.1}}},
+    {"fold", {{"triangles", 60}, {"fold.cycles", 2}}},
+    {"crumple", {{"triangles", 100}, {"seconds", 0.1}}},
+    {"buckle", {{"triangles", 60}}},
+    {"cantilever", {{"triangles", 60}}},
+    {"run", {{"scene", "hanging-square"}, {"triangles", 60}}}};
+const std::vector<Flag> kOthers = {{"triangles", 60}, {"seconds", 0.1}};
 
 std::vector<std::string> simulating_experiments() {
   std::vector<std::string> names;
@@ -26,12 +27,12 @@ std::vector<std::string> simulating_experiments() {
   return names;
 }
 
-Json results_at(const std::string& experiment, const std::string& fps) {
+Json results_at(const std::string& experiment, std::optional<double> fps) {
   const Folder folder;
   const auto quickest = kQuickest.find(experiment);
   std::vector<Flag> flags = quickest == kQuickest.end() ? kOthers : quickest->second;
-  flags.insert(flags.end(), {{"device", "cpu"}, {"threads", "1"}});
-  if (!fps.empty()) flags.push_back({"fps", fps});
+  flags.insert(flags.end(), {{"device", "cpu"}, {"threads", 1}});
+  if (fps) flags.push_back({"fps", *fps});
   EXPECT_EQ(run_into(folder.path(), experiment, flags), 0);
   const Json manifest = manifest_in(folder.path());
   return {{"metrics", manifest["metrics"]},
@@ -45,9 +46,9 @@ INSTANTIATE_TEST_SUITE_P(Experiments, FrameRate, testing::ValuesIn(simulating_ex
                          [](const auto& name) { return name.param; });
 
 TEST_P(FrameRate, DecidesNoResult) {
-  const Json results = results_at(GetParam(), "");
+  const Json results = results_at(GetParam(), std::nullopt);
   EXPECT_FALSE(results["metrics"].empty());
-  for (const char* fps : {"7", "0"}) EXPECT_EQ(results_at(GetParam(), fps), results) << fps;
+  for (const double fps : {7, 0}) EXPECT_EQ(results_at(GetParam(), fps), results) << fps;
 }
 
 TEST(FrameRate, HasQuickestFormsOfExperimentsAlone) {

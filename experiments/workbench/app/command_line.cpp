@@ -20,7 +20,7 @@ namespace {
 struct Command {
   const Experiment* experiment;
   CLI::App* app;
-  std::vector<std::pair<std::string, CLI::Option*>> flags;
+  std::vector<std::pair<KeyDescription, CLI::Option*>> flags;
   std::vector<std::string> positionals;
 };
 
@@ -80,7 +80,7 @@ void add_command(CLI::App& program, const Experiment& experiment, Command& comma
   command.app->allow_extras();
   command.app->set_version_flag("--version", program_version());
   for (const KeyDescription& key : every_option(experiment, Defaults::left_out))
-    command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
+    command.flags.emplace_back(key, add_flag(*command.app, key));
   if (*experiment.positionals)
     command.app->add_option("names", command.positionals)->type_name(experiment.positionals);
 }
@@ -146,7 +146,7 @@ void throw_if_unknown(const Command& command) {
   if (!word.starts_with('-'))
     throw Error::invalid_input("unexpected argument \"" + word + "\"").with_experiment(experiment);
   std::vector<std::string> known;
-  for (const auto& flag : command.flags) known.push_back("--" + flag.first);
+  for (const auto& flag : command.flags) known.push_back(option_name(flag.first));
   const std::string owner = owners_of_key(word.substr(std::min(word.find_first_not_of('-'), word.size())));
   const std::string nearest = nearest_name(word, known);
   std::string more = owner;
@@ -171,14 +171,15 @@ void throw_if_stray_word(const std::string& word, const std::vector<Experiment>&
 CommandLine taken_apart(const Command& command, std::string shell_command) {
   CommandLine line{command.experiment->name, std::move(shell_command), {}, command.positionals};
   throw_if_unknown(command);
-  for (const auto& [path, option] : command.flags) {
+  for (const auto& [key, option] : command.flags) {
+    const std::string path = key.flag();
     warn_of_repeated(path, *option);
     for (const std::string& text : option->reduced_results()) {
       if (path == "out" && text.empty())
         throw Error::invalid_input("--out is empty: name where to write")
             .with_key("out", "")
             .with_experiment(line.experiment);
-      line.flags.push_back({path, text});
+      line.flags.push_back({path, parse_text(key, text)});
     }
   }
   return line;

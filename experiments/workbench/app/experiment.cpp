@@ -64,10 +64,23 @@ void check_errors(const std::string& experiment) {
       .with_key("errors", "true");
 }
 
+Flag parsed_flag(const std::string& experiment, const std::string& path, const std::string& text) {
+  const auto in = [&](const std::vector<KeyDescription>& keys) -> std::optional<Flag> {
+    const auto key = std::ranges::find_if(
+        keys, [&](const KeyDescription& key) { return key.path == path || key.flag() == path; });
+    return key == keys.end() ? std::nullopt : std::optional(Flag{path, parse_text(*key, text)});
+  };
+  const Experiment& owner = experiment_named(experiment);
+  std::optional<Flag> flag;
+  if (owner.simulates) flag = in(simulation_keys());
+  if (!flag) flag = in(owner.own_keys());
+  return flag.value_or(Flag{path, text});
+}
+
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise) {
   std::string text = otherwise;
   for (const Flag& flag : flags)
-    if (flag.path == path) text = flag.text;
+    if (flag.path == path) text = flag.text();
   return text;
 }
 
@@ -183,17 +196,15 @@ std::vector<std::string> law_names() {
   return names;
 }
 
-void assign_text(const Keys& keys, const std::string& path, const std::string& text,
-                 const std::string& origin) {
-  const BoundKey& key = find_key(keys, path, origin);
-  assign(key, parse_text(key.description, text), origin);
+void assign_flag(const Keys& keys, const Flag& flag) {
+  const std::string origin = "--" + flag.path;
+  assign(find_key(keys, flag.path, origin), flag.value, origin);
 }
 
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {
   const auto apply = [&] {
     for (const Flag& flag : line.flags)
-      if (!key_of_flag(flag.path).starts_with("fabric."))
-        assign_text(keys, flag.path, flag.text, "--" + flag.path);
+      if (!key_of_flag(flag.path).starts_with("fabric.")) assign_flag(keys, flag);
   };
   apply();
   if (quick && *std::get<bool*>(find_key(keys, "quick", "--quick").field)) {

@@ -25,15 +25,18 @@ namespace hysteron::experiments {
 
 // The words after `hysteron`, split but not yet interpreted.
 struct CommandLine {
-  std::string experiment;   // name of the subcommand: "drape"
-  std::string command;      // the whole line, quoted for a shell, for the manifest
-  std::vector<Flag> flags;  // {"fabric.b2", "1e-5"}, in the order of the keys; bare flags have text "true"
+  std::string experiment;                // name of the subcommand: "drape"
+  std::string command;                   // the whole line, quoted for a shell, for the manifest
+  std::vector<Flag> flags;               // {"fabric.b2", 1e-5}, in the order of the keys; bare flags are true
   std::vector<std::string> positionals;  // arguments that are no flags: files, folders
   // Keys for which this page lists several values: each of its runs has one of them, and checks what depends
   // on it.
   std::vector<std::string> listed = {};
 };
 
+// Returns the flag of a text, whose value has the type of the experiment's key; of an unknown key the text
+// itself, which is refused where the key is looked for.
+Flag parsed_flag(const std::string& experiment, const std::string& path, const std::string& text);
 // Returns the text of the last flag of that path; `otherwise` without one.
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise);
 
@@ -162,9 +165,8 @@ std::vector<KeyDescription> own_key_descriptions() {
   return keys;
 }
 
-// Sets the key of that path from a flag's text.  Throws what find_key and assign throw.
-void assign_text(const Keys& keys, const std::string& path, const std::string& text,
-                 const std::string& origin);
+// Sets the key that the flag names.  Throws what find_key and assign throw.
+void assign_flag(const Keys& keys, const Flag& flag);
 // Sets `keys` from the flags, for experiments without a scene; flags override `quick`, which applies --quick,
 // one of the keys, to the struct that they are bound to.  Keys of a fabric are left to resolved_fabric().
 // Throws Error::invalid_input.

@@ -26,17 +26,18 @@ std::string visible_gpu(int gpu) {
 
 void choose_gpu(CommandLine& line, int of_machine, bool with_cuda) {
   for (Flag& flag : line.flags) {
-    if (flag.path != "device" || !flag.text.starts_with(kGpu)) continue;
+    const std::string device = flag.text();
+    if (flag.path != "device" || !device.starts_with(kGpu)) continue;
     const auto refuse = [&](const std::string& why) {
-      throw Error::invalid_input("--device " + flag.text + ": " + why)
+      throw Error::invalid_input("--device " + device + ": " + why)
           .with_key("device", "")
           .with_experiment(line.experiment);
     };
-    const std::string number = flag.text.substr(kGpu.size());
+    const std::string number = device.substr(kGpu.size());
     if (number.empty() || number.size() > kMaxDigits || number.find_first_not_of("0123456789") != number.npos)
       refuse("after cuda: comes the number of a GPU, from 0 on");
     if (!with_cuda) {
-      flag.text = "cuda";
+      flag.value = "cuda";
       continue;
     }
     const int gpu = std::stoi(number), allowed = static_cast<int>(allowed_gpus().size());
@@ -45,7 +46,7 @@ void choose_gpu(CommandLine& line, int of_machine, bool with_cuda) {
     if (allowed == 0 && of_machine > 0 && gpu >= of_machine)
       refuse("this machine has " + gpus_text(of_machine));
     setenv(kVisibleGpus, visible_gpu(gpu).c_str(), 1);
-    flag.text = "cuda";
+    flag.value = "cuda";
   }
 }
 

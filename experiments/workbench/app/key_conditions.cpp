@@ -215,16 +215,16 @@ void refuse_unread_flags(const CommandLine& line, const KeyValues& values) {
   for (const Flag& flag : line.flags) {
     const KeyCondition* condition = broken_condition(conditions, request, flag.path);
     if (!condition || !is_given(line, flag.path)) continue;
-    const std::string what = "--" + flag.path + (flag.text == "true" ? "" : " " + flag.text);
+    const std::string what = "--" + flag.path + (flag.value == Value(true) ? "" : " " + flag.text());
     throw Error::invalid_input(unread_message(request, *condition, what, flag.path))
-        .with_key(flag.path, flag.text);
+        .with_key(flag.path, flag.text());
   }
 }
 
-std::vector<Flag> without_unread_flags(const CommandLine& line, const std::string& key,
-                                       const std::string& value) {
+std::vector<Flag> without_unread_flags(const CommandLine& line, const Flag& change) {
   const std::vector<KeyCondition> conditions = key_conditions(experiment_named(line.experiment));
-  const KeyValues changed = {{key, value}};
+  const Json value = std::visit([](const auto& x) { return Json(x); }, change.value);
+  const KeyValues changed = {{change.path, value}};
   const Request request(line, changed);
   std::vector<Flag> flags = line.flags;
   std::erase_if(flags, [&](const Flag& flag) { return broken_condition(conditions, request, flag.path); });

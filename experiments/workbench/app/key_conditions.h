@@ -42,8 +42,7 @@ std::vector<std::string> listed_names(const std::string& key, const std::string&
 std::vector<std::string> unread_key_warnings(const CommandLine& line, const KeyValues& values,
                                              const KeyValues& usual);
 
-// Returns the flags that are still read when `key` has another value, for a repetition with that change.
-std::vector<Flag> without_unread_flags(const CommandLine& line, const std::string& key,
-                                       const std::string& value);
+// Returns the flags of the line that are still read with that change, for a repetition with it.
+std::vector<Flag> without_unread_flags(const CommandLine& line, const Flag& change);
 
 }  // namespace hysteron::experiments

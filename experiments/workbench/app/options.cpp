@@ -42,7 +42,7 @@ const KeyRow<Options> kRows[] = {
     {"plain", at<&O::plain>, "", any(), "pictures of the sequence without captions and bars", kPicture},
     {"light", at<&O::light>, "", any(), "raking: light from the side, almost in the plane of the picture, as wrinkles are photographed", kLook},
     {"background", at<&O::background>, "", any(), "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions", kLook},
-    {"camera", at<&O::camera>, "", any(), "a camera as a run writes it, OUT/camera.json; keys camera.* that are given win", {.scope = Scope::preset, .group = KeyGroup::running}},
+    {"camera", at<&O::camera>, "", any(), "a camera as a run writes it, OUT/camera.json; keys camera.* that are given win", {.scope = Scope::preset, .group = KeyGroup::pictures}},
     {"camera.direction", at<&O::camera_direction>, "", any(), "from the cloth to the eye, any length", kLook},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "full vertical angle of view", kLook},
     {"camera.target", at<&O::camera_target>, "m", any(), "three numbers: what is in the middle of the picture; none: the middle of what moves", kLook},

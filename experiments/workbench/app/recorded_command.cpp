@@ -28,7 +28,8 @@ std::vector<std::string> command_text(const std::string& command) {
 CommandLine recorded_line(const RecordedRun& run) {
   if (run.manifest.spec) {
     CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->positionals};
-    for (const auto& [path, text] : run.manifest.spec->flags) line.flags.push_back({path, text});
+    for (const auto& [path, text] : run.manifest.spec->flags)
+      line.flags.push_back(parsed_flag(line.experiment, path, text));
     if (!*experiment_named(line.experiment).name)
       throw Error::invalid_input(run.file.string() + ": there is no experiment " + line.experiment);
     return line;
@@ -47,8 +48,8 @@ CommandLine recorded_line(const RecordedRun& run) {
 // Replaces an experiment's scene file that no longer exists by the manifest, which holds the scene.
 void find_scene(CommandLine& line, const RecordedRun& run) {
   for (Flag& flag : line.flags) {
-    if (flag.path != "scene" || !flag.text.ends_with(".toml") || fs::exists(flag.text)) continue;
-    flag.text = run.file.string();
+    if (flag.path != "scene" || !flag.text().ends_with(".toml") || fs::exists(flag.text())) continue;
+    flag.value = run.file.string();
   }
 }
 
@@ -62,7 +63,7 @@ bool takes(const Experiment& experiment, const std::string& key) {
 std::string typed_command(const CommandLine& line) {
   std::vector<std::string> words = {"hysteron", line.experiment};
   words.insert(words.end(), line.positionals.begin(), line.positionals.end());
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text());
   return shell_text(words);
 }
 
@@ -78,7 +79,7 @@ RecordedRun recorded_run(const std::string& folder_or_manifest) {
 std::string missing_input(const CommandLine& line) {
   std::error_code ignored;
   for (const Flag& flag : line.flags)
-    if (flag.text.ends_with(".csv") && !fs::exists(flag.text, ignored)) return flag.text;
+    if (flag.text().ends_with(".csv") && !fs::exists(flag.text(), ignored)) return flag.text();
   return "";
 }
 
@@ -102,8 +103,8 @@ CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& l
     std::erase_if(line.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   for (const Flag& flag : later) {
     if (!takes(experiment_named(line.experiment), flag.path)) continue;
-    const bool draws_no_more = flag.path == "no-images" && flag.text == "true";
-    if (draws_no_more) line.flags = without_unread_flags(line, flag.path, flag.text);
+    const bool draws_no_more = flag == Flag{"no-images", true};
+    if (draws_no_more) line.flags = without_unread_flags(line, flag);
     line.flags.push_back(flag);
   }
   line.command = typed_command(line);

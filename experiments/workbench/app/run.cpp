@@ -44,7 +44,7 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   manifest.experiment = line.experiment;
   manifest.command = line.command;
   manifest.spec = RunSpec{line.positionals};
-  for (const Flag& flag : line.flags) manifest.spec->flags.emplace_back(flag.path, flag.text);
+  for (const Flag& flag : line.flags) manifest.spec->flags.emplace_back(flag.path, flag.text());
   manifest.started = utc_now();
   manifest.keys = std::make_shared<const Json>(scene);
   manifest.precision = text("precision");

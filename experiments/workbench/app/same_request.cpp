@@ -150,7 +150,7 @@ std::string changed_error_flags(const Manifest& before, const CommandLine& line)
       before.spec ? before.spec->flags : none, [](const auto& flag) { return flag.first; },
       [](const auto& flag) { return flag.second; });
   const auto now = words(
-      line.flags, [](const Flag& flag) { return flag.path; }, [](const Flag& flag) { return flag.text; });
+      line.flags, [](const Flag& flag) { return flag.path; }, [](const Flag& flag) { return flag.text(); });
   return join(changed_text(then, now), ", ");
 }
 

@@ -35,35 +35,36 @@ std::vector<Flag> resampled_mesh(const Scene& scene, int mesh_sample) {
   const std::vector<MeshFamily> families = other_families(scene);
   const int random = mesh_sample - static_cast<int>(families.size());
   if (random <= 0) return {{"mesh", enum_name(families[static_cast<std::size_t>(mesh_sample) - 1])}};
-  return {{"mesh", enum_name(MeshFamily::random)},
-          {"seed", std::to_string(scene.seed + static_cast<unsigned>(random))}};
+  return {{"mesh", enum_name(MeshFamily::random)}, {"seed", scene.seed + static_cast<unsigned>(random)}};
 }
 
 // Returns the changes of draw 1, 2 ...: 3/2, 2/3, 2, 1/2 ... times the triangles.
 std::vector<Flag> resized_mesh(const Scene& scene, int mesh_sample) {
   const int halves = 2 + (mesh_sample + 1) / 2;
   const int number = mesh_sample % 2 ? scene.triangles / 2 * halves : scene.triangles * 2 / halves;
-  return {{"triangles", std::to_string(number)}};
+  return {{"triangles", number}};
 }
 
 bool from_a_file(const Scene& scene) { return !rest_file(scene).empty(); }
 
 Flag finer_mesh(const Scene& scene) {
-  if (from_a_file(scene)) return {kSubdivisions, std::to_string(scene.cloth.subdivisions + 1)};
-  return {"triangles", std::to_string(kFiner * scene.triangles)};
+  if (from_a_file(scene)) return {kSubdivisions, scene.cloth.subdivisions + 1};
+  return {"triangles", kFiner * scene.triangles};
 }
 
 ChildRun child_run(const Run& run, const CommandLine& line, const ErrorRun& error_run) {
   std::vector<Flag> own = error_run.changes;
   // These flags override the scene's file.
-  own.push_back({"no-images", "true"});
+  const Flag no_images = {"no-images", true};
+  own.push_back(no_images);
   for (const KeyDescription& key : simulation_keys())
-    if (!key.traits.repeats) own.push_back({key.flag(), key.type == "flag" ? "false" : key.default_text});
+    if (!key.traits.repeats)
+      own.push_back({key.flag(), key.type == "flag" ? Value(false) : parse_text(key, key.default_text)});
   CommandLine once = line;
   for (const Flag& change : error_run.changes)
     if (change.path == experiment_headlines(line.experiment).release)
-      once.flags = without_unread_flags(once, change.path, change.text);
-  once.flags = without_unread_flags(once, "no-images", "true");
+      once.flags = without_unread_flags(once, change);
+  once.flags = without_unread_flags(once, no_images);
   std::erase_if(once.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   return child_run(error_run.name, once, own, run.folder() / "errors");
 }
@@ -80,7 +81,7 @@ std::string noted_release(const Run& run, const Headlines& headlines) {
 // Returns "step=0.0005 seed=2", with `before` before each.
 std::string changes_text(const std::vector<Flag>& flags, const std::string& before) {
   std::string text;
-  for (const Flag& flag : flags) text += (text.empty() ? "" : " ") + before + flag.path + "=" + flag.text;
+  for (const Flag& flag : flags) text += (text.empty() ? "" : " ") + before + flag.path + "=" + flag.text();
   return text;
 }
 
@@ -131,10 +132,9 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
 // Tightens the tolerance of adaptive steps, too: the error that they keep is of third order, with `implicit`
 // of second.
 std::vector<Flag> half_the_step(const Scene& scene) {
-  std::vector<Flag> changes = {{"step", number_text(scene.step / 2)}};
+  std::vector<Flag> changes = {{"step", scene.step / 2}};
   if (scene.tolerance > 0)
-    changes.push_back(
-        {"tolerance", number_text(scene.tolerance / (scene.integrator == Integrator::implicit ? 4 : 8))});
+    changes.push_back({"tolerance", scene.tolerance / (scene.integrator == Integrator::implicit ? 4 : 8)});
   return changes;
 }
 

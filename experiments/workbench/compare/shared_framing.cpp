@@ -1,7 +1,6 @@
 #include "experiments/workbench/app/case.h"
 #include "experiments/workbench/compare/variants.h"
 #include "experiments/workbench/pictures/framing.h"
-#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 
@@ -15,9 +14,9 @@ std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Vari
     if (!one) return {};
     box = box ? box->merged(*one) : *one;
   }
-  std::string corners;
+  Numbers corners;
   for (const Eigen::Vector3f& corner : {box->low, box->high})
-    for (int k = 0; k < 3; ++k) corners += number_text(corner[k]) + " ";
+    corners.insert(corners.end(), corner.begin(), corner.end());
   return {{"camera.box", corners}};
 }
 

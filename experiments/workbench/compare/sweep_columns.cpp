@@ -46,7 +46,7 @@ constexpr int kNotRun = -1;  // in place of an exit code
 std::vector<std::string> line_arguments(const CommandLine& line) {
   std::vector<std::string> words = {line.experiment};
   words.insert(words.end(), line.positionals.begin(), line.positionals.end());
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text());
   return words;
 }
 
@@ -73,7 +73,7 @@ std::vector<std::string> words_in(const Json& list) {
 std::vector<std::string> noted_text(const RunSpec& spec, const std::string& experiment) {
   CommandLine line{experiment, "", {}, spec.positionals};
   for (const auto& [path, text] : spec.flags)
-    if (!is_of_page(path)) line.flags.push_back({path, text});
+    if (!is_of_page(path)) line.flags.push_back(parsed_flag(experiment, path, text));
   return line_arguments(line);
 }
 

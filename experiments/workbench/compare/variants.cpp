@@ -19,13 +19,13 @@ namespace {
 
 // Returns the key that the flag sets; for parameters a single one.
 std::string flag_key(const Flag& flag) {
-  if (flag.path == "param") return "param." + flag.text.substr(0, flag.text.find('='));
+  if (flag.path == "param") return "param." + flag.text().substr(0, flag.text().find('='));
   return flag_of_key(flag.path);
 }
 
 bool is_list(const Flag& flag) {
   return simulation_traits(flag.path).in_columns == InColumns::list &&
-         (flag.text == "all" || flag.text.find_first_of(",+") != std::string::npos);
+         (flag.text() == "all" || flag.text().find_first_of(",+") != std::string::npos);
 }
 
 // Returns the names in the last flag of that key, `all` being `every`; one empty name without the flag.
@@ -33,28 +33,30 @@ std::vector<std::string> names_in(const CommandLine& line, const std::string& ke
                                   const std::vector<std::string>& every) {
   std::string text;
   for (const Flag& flag : line.flags)
-    if (flag_key(flag) == key) text = flag.text;
+    if (flag_key(flag) == key) text = flag.text();
   if (text.empty()) return {""};
   return text == "all" ? every : split(text);
 }
 
-// Adds flags: "linear" is --law linear; "linear+fabric.damping=1e-3" adds --fabric.damping 1e-3.
-void add_flags(std::vector<Flag>& flags, const std::string& path, const std::string& text) {
+// Adds flags of that experiment: "linear" is --law linear; "linear+fabric.damping=1e-3" adds
+// --fabric.damping 1e-3.
+void add_flags(std::vector<Flag>& flags, const std::string& experiment, const std::string& path,
+               const std::string& text) {
   std::istringstream parts(text);
   std::string part;
   std::getline(parts, part, '+');
-  flags.push_back({path, part});
+  flags.push_back(parsed_flag(experiment, path, part));
   while (std::getline(parts, part, '+')) {
     const std::size_t equals = part.find('=');
     if (equals == part.npos)
       throw Error::invalid_input(text + ": \"" + part + "\" must be key=value").with_key(path, text);
-    flags.push_back({part.substr(0, equals), part.substr(equals + 1)});
+    flags.push_back(parsed_flag(experiment, part.substr(0, equals), part.substr(equals + 1)));
   }
 }
 
 // Combines each variant with each of the names, which become part of its own name if there are several.
-std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std::string& path,
-                                const std::vector<std::string>& names) {
+std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std::string& experiment,
+                                const std::string& path, const std::vector<std::string>& names) {
   std::vector<Variant> result;
   for (const Variant& variant : variants)
     for (const std::string& name : names) {
@@ -63,7 +65,7 @@ std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std:
         throw Error::invalid_input(path + " has a comma without a name before it (--" + path + ")")
             .with_key(path, "");
       if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + column_name(name);
-      if (!name.empty()) add_flags(one.flags, path, name);
+      if (!name.empty()) add_flags(one.flags, experiment, path, name);
       result.push_back(std::move(one));
     }
   return result;
@@ -101,7 +103,8 @@ std::vector<Variant> named_variants(const CommandLine& line) {
       {"fabric", list_assets("fabrics")},
       {"law", every_law},
       {"integrator", {"semi-implicit", "implicit", "bdf2"}}};
-  for (const auto& [key, every] : keys) variants = multiplied(variants, key, names_in(line, key, every));
+  for (const auto& [key, every] : keys)
+    variants = multiplied(variants, line.experiment, key, names_in(line, key, every));
   if (variants.size() == 1 && last_text(line.flags, "law", "") != "")
     variants[0].name = column_name(names_in(line, "law", every_law)[0]);
   name_apart(variants);
@@ -141,7 +144,7 @@ std::string varied_key(const std::vector<Variant>& variants) {
     for (const Variant& variant : variants) {
       std::string own;
       for (const Flag& flag : variant.flags)
-        if (flag_key(flag) == key) own = flag.text;
+        if (flag_key(flag) == key) own = flag.text();
       known.insert(own);
     }
   std::erase_if(texts, [](const auto& text) { return text.second.size() < 2; });
@@ -167,7 +170,7 @@ bool lists_fabrics(const CommandLine& line) {
 }
 
 std::vector<Flag> for_sheets(const CommandLine& line) {
-  std::vector<Flag> flags = {{"plain", "true"}};
+  std::vector<Flag> flags = {{"plain", true}};
   if (last_text(line.flags, "look", "cloth").starts_with("cloth") &&
       last_text(line.flags, "background", "").empty())
     flags.push_back({"background", "white"});

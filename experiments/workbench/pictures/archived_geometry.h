@@ -101,7 +101,7 @@ std::string record_text(const ArchivedRecord& record);
 std::vector<ArchivedRecord> read_records(const std::filesystem::path& file);
 // Reads the file.  Throws Error::invalid_input, naming the file, for damaged records.
 Archived read_archived(const std::filesystem::path& file);
-// Reads its first mesh alone; throws as read_kept() does.
+// Reads its first mesh alone; throws as read_archived() does.
 DrawnMesh read_archived_mesh(const std::filesystem::path& file);
 
 // Returns the file of a run's or a recorded folder: that of all frames, else that of the sheet; "" if there

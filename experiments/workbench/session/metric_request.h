@@ -19,7 +19,7 @@
 
 namespace hysteron::experiments {
 
-// What a metric measures, as the doc of the key `kind` says.
+// A kind of metric measures what the doc of the key `kind` says.
 enum class MetricKind {
   distance,
   height,

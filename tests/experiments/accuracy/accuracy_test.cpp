@@ -116,7 +116,7 @@ TEST(Swing, SemiImplicitIsOfFirstOrder) { EXPECT_NEAR(order_in_time("semi-implic
 TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
   const Folder folder;
   const auto out = folder.path() / "a";
-  EXPECT_EQ(run_into(out, "accuracy", {{"problem", "bend"}, {"quick", "true"}}), 0);
+  EXPECT_EQ(run_into(out, "accuracy", {{"problem", "bend"}, {"quick", true}}), 0);
   const std::string table = file_content(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
             1 + static_cast<long>(bend_problem(kQuick).settings.size()));

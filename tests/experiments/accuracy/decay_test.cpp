@@ -192,10 +192,10 @@ TEST_P(Swinging, StripHasTheBeamsFrequency) {
 // half period; the second mode moves that by up to 0.9 %.
 TEST(Swing, HangsFromTheClampsLine) {
   const Folder folder;
-  const std::vector<Flag> flags = {{"law", "linear"},          {"fabric", "cotton-broad-k50"},
-                                   {"fabric.damping", "1e-5"}, {"gravity", "0 0 -1e-3"},
-                                   {"triangles", "240"},       {"fps", "120"},
-                                   {"seconds", "1"},           {"device", "cpu"}};
+  const std::vector<Flag> flags = {{"law", "linear"},        {"fabric", "cotton-broad-k50"},
+                                   {"fabric.damping", 1e-5}, {"gravity", Numbers{0, 0, -1e-3}},
+                                   {"triangles", 240},       {"fps", 120},
+                                   {"seconds", 1},           {"device", "cpu"}};
   ASSERT_EQ(run_into(folder.path(), "swing", flags), 0);
   const Table series = read_csv(folder.path() / "metrics.csv", {"time [s]", "tip_height [m]"}, {}, "test");
   const std::vector<double> t = series.numbers("time [s]"), z = series.numbers("tip_height [m]");

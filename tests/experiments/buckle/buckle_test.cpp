@@ -181,7 +181,7 @@ TEST(Buckling, ShowsARigidityFivePercentOff) {
 
 TEST(Buckle, WritesTheThresholdBesideTheReference) {
   const Folder folder;
-  EXPECT_EQ(run_into(folder.path(), "buckle", {{"buckle.kind", "upright"}, {"quick", "true"}}), 0);
+  EXPECT_EQ(run_into(folder.path(), "buckle", {{"buckle.kind", "upright"}, {"quick", true}}), 0);
   EXPECT_TRUE(fs::exists(folder.path() / "southwell.csv"));
   const auto metrics = metrics_of(folder.path());
   EXPECT_NEAR(metrics["reference_gamma"].get<double>(), 7.8373, 1e-4);

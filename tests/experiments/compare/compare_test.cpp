@@ -212,7 +212,7 @@ TEST(Variants, AreNamedAfterTheOneKeyInWhichTheyDiffer) {
   EXPECT_EQ(varied_key({variant("a", "linear"), variant("b", "prandtl")}), "column");
   EXPECT_EQ(varied_key({{"", {{"integrator", "bdf2"}}}, {"", {{"integrator", "implicit"}}}}), "integrator");
   Variant damped = variant("a", "linear");
-  damped.flags.push_back({"fabric.damping", "1e-3"});
+  damped.flags.push_back({"fabric.damping", 1e-3});
   EXPECT_EQ(varied_key({variant("a", "linear"), damped}), "fabric.damping");
   EXPECT_EQ(varied_key({variant("a", "linear"), damped, variant("a", "prandtl")}), "column");
 }
@@ -298,7 +298,7 @@ TEST(Compare, RefusesAStiffnessThatItsMatchingWouldChange) {
   const Folder folder;
   const std::string said = refused("compare swing --laws linear+fabric.b2=1e-5,prandtl" +
                                    out_flag(folder.path() / "out") + kSmall);
-  EXPECT_TRUE(says(said, "column linear+fabric.b2=1e-5: fabric.b2 = 1e-5 would be multiplied by "));
+  EXPECT_TRUE(says(said, "column linear+fabric.b2=1e-5: fabric.b2 = 1e-05 would be multiplied by "));
   EXPECT_TRUE(says(said, "--compare.match fabric leaves it as it is"));
 }
 

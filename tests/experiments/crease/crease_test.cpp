@@ -132,10 +132,9 @@ TEST(Crease, FindsTheEquilibriumOfAFoldThatIsPressedEdgeAlongEdge) {
 }
 
 Json soft_fold(const char* fold, std::vector<Flag> flags = {}) {
-  flags.insert(flags.end(), {{"crease.fold", fold},
-                             {"fabric", "cotton-broad-k50"},
-                             {"triangles", "200"},
-                             {"crease.recovery", "1"}});
+  flags.insert(
+      flags.end(),
+      {{"crease.fold", fold}, {"fabric", "cotton-broad-k50"}, {"triangles", 200}, {"crease.recovery", 1}});
   return metrics_with("crease", std::move(flags));
 }
 
@@ -154,12 +153,12 @@ TEST(SoftFold, AroundARodOpensAsTheLawAlone) { expect_opening("rod", 3, 45, 130)
 
 // Let go slowly, it passes through equilibria: what stays does not depend on the step.
 TEST(SoftFold, LetGoSlowlyKeepsTheSameWithHalfTheStep) {
-  const auto kept = [](const char* step) {
+  const auto kept = [](double step) {
     const auto metrics = soft_fold("rod", {{"step", step}});
     return std::pair<double, double>(metrics["recovery_angle_deg"], metrics["residual_curvature_per_m"]);
   };
-  const auto [angle, residual] = kept("0.016666666666666666");
-  const auto [finer_angle, finer_residual] = kept("0.008333333333333333");
+  const auto [angle, residual] = kept(0.016666666666666666);
+  const auto [finer_angle, finer_residual] = kept(0.008333333333333333);
   EXPECT_NEAR(angle, finer_angle, 1);
   EXPECT_NEAR(residual / finer_residual, 1, 0.05);
 }
@@ -258,12 +257,12 @@ TEST(CreaseInTime, OfCottonBroadHasItsPublishedPair) {
 // Friction alone keeps what it keeps; with a branch the angle comes back in time.
 TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
   const auto recovered = [](std::vector<Flag> flags) {
-    flags.insert(flags.end(), {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", "200"}});
+    flags.insert(flags.end(), {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", 200}});
     return metrics_with("crease", std::move(flags));
   };
   const auto friction = recovered({}),
-             relaxing = recovered({{"fabric.bending.branches.times", "30"},
-                                   {"fabric.bending.branches.stiffnesses", "1.2e-5"}});
+             relaxing = recovered({{"fabric.bending.branches.times", Numbers{30}},
+                                   {"fabric.bending.branches.stiffnesses", Numbers{1.2e-5}}});
   const auto angle = [](const Json& m, const char* key) { return m[key].get<double>(); };
   constexpr double kAtRest = 0.05;  // degrees
   EXPECT_NEAR(angle(friction, "recovery_angle_deg"), angle(friction, "release_angle_deg"), kAtRest);

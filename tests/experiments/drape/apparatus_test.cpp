@@ -21,7 +21,7 @@ Scene with_apparatus(const DrapeParams& choice) {
 
 // Metrics of a drape of 300 triangles, unless flags say otherwise; its files lie in out/.
 Metrics quick_drape(const Folder& folder, const std::vector<Flag>& further) {
-  std::vector<Flag> flags = {{"triangles", "300"}, {"threads", "1"}, {"device", "cpu"}, {"quick", "true"}};
+  std::vector<Flag> flags = {{"triangles", 300}, {"threads", 1}, {"device", "cpu"}, {"quick", true}};
   flags.insert(flags.end(), further.begin(), further.end());
   EXPECT_EQ(run_into(folder.path() / "out", "drape", std::move(flags)), 0);
   return read_manifest(folder.path() / "out/manifest.json").metrics;
@@ -85,7 +85,7 @@ TEST(PublishedDrape, StandsBesideDrapesOfItsOwnTesterOnly) {
 
 TEST(PublishedDrape, IsNoResultOfADrapeOnAnotherTester) {
   const Folder folder;
-  const std::vector<Flag> small = {{"triangles", "60"}, {"seconds", "0.8"}};
+  const std::vector<Flag> small = {{"triangles", 60}, {"seconds", 0.8}};
   const Metrics default_metrics = quick_drape(folder, small);
   EXPECT_FALSE(default_metrics.contains("published_drape_coefficient_percent"));
   EXPECT_FALSE(default_metrics.contains("published_node_count"));
@@ -95,11 +95,11 @@ TEST(PublishedDrape, IsNoResultOfADrapeOnAnotherTester) {
   const Metrics jis_metrics = quick_drape(folder, shaken);
   EXPECT_EQ(jis_metrics["published_drape_coefficient_percent"].number(), 82.9);
   EXPECT_FALSE(jis_metrics.contains("published_drape"));
-  shaken.push_back({"fabric.k0", "12"});
+  shaken.push_back({"fabric.k0", 12});
   const Metrics changed = quick_drape(folder, shaken);
   EXPECT_EQ(changed["published_drape_coefficient_percent"].number(), 82.9);
   EXPECT_EQ(changed["published_drape"].text(), "is of cotton-broad without --fabric.k0");
-  shaken.push_back({"gravity", "0 0 -5"});
+  shaken.push_back({"gravity", Numbers{0, 0, -5}});
   const Metrics lighter = quick_drape(folder, shaken);
   EXPECT_FALSE(lighter.contains("published_drape_coefficient_percent"));
   EXPECT_TRUE(says(lighter["published_drape"].text(), "stands upright on earth"));
@@ -135,12 +135,12 @@ TEST(ShakenDrape, OfStiffPaperStaysFlat) {
   constexpr double kSag = 0.1, kShaken = 0.5;  // of the coefficient, at rest and in motion [%]
   const Folder folder;
   const Metrics metrics = quick_drape(folder, {{"drape.standard", "jis"},
-                                               {"drape.wait", "0"},
+                                               {"drape.wait", 0},
                                                {"law", "linear"},
-                                               {"fabric.b1", "5e-3"},
-                                               {"fabric.b2", "5e-3"},
-                                               {"fabric.density", "0.2"},
-                                               {"fabric.thickness", "2.5e-4"}});
+                                               {"fabric.b1", 5e-3},
+                                               {"fabric.b2", 5e-3},
+                                               {"fabric.density", 0.2},
+                                               {"fabric.thickness", 2.5e-4}});
   const Table series =
       read_csv(folder.path() / "out/metrics.csv", {"time [s]", "drape_coefficient [%]"}, {}, "test");
   ASSERT_EQ(series.numbers("time [s]").front(), 0);
@@ -154,12 +154,11 @@ TEST(ShakenDrape, OfStiffPaperStaysFlat) {
 
 // The same folds under every method are what makes equilibria comparable.
 TEST(DroppedDrape, HangsInTheFoldsThatWereSeeded) {
-  for (const char* folds : {"6", "7"}) {
+  for (const int folds : {6, 7}) {
     const Folder folder;
-    EXPECT_EQ(
-        quick_drape(folder, {{"drape.release", "dropped"}, {"drape.folds", folds}, {"triangles", "600"}})
-            .number("node_count"),
-        std::stoi(folds));
+    EXPECT_EQ(quick_drape(folder, {{"drape.release", "dropped"}, {"drape.folds", folds}, {"triangles", 600}})
+                  .number("node_count"),
+              folds);
   }
 }
 

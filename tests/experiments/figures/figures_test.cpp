@@ -125,7 +125,7 @@ TEST(FiguresCommand, WritesCurvesAndCaptionsWithoutPicturesToo) {
   EXPECT_EQ(experiment_named("figures").run(
                 {"figures",
                  "hysteron figures",
-                 {{"out", folder.path().string()}, {"no-images", "true"}, {"fabric", "wool-tropical-k50"}},
+                 {{"out", folder.path().string()}, {"no-images", true}, {"fabric", "wool-tropical-k50"}},
                  {}}),
             0);
   testing::internal::GetCapturedStdout();

@@ -22,7 +22,7 @@ class Fit : public testing::Test {
   };
   int fit(std::vector<Flag> flags) {
     flags.push_back({"out", out().string()});
-    flags.push_back({"quiet", "true"});
+    flags.push_back({"quiet", true});
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     const Captured captured{said_, warned_};
@@ -48,7 +48,7 @@ class Fit : public testing::Test {
 
 TEST_F(Fit, OfALoopWritesWhatTheInterfaceNamesAndAFabricThatIsReadBack) {
   ASSERT_EQ(
-      fit({{"loop", loop("prandtl", {250, -250, 250})}, {"name", "sample \"7\""}, {"fabric.density", "0.2"}}),
+      fit({{"loop", loop("prandtl", {250, -250, 250})}, {"name", "sample \"7\""}, {"fabric.density", 0.2}}),
       0);
   for (const char* name : {"fabric.toml", "fit.csv", "plot_fit.png", "plot_fit.svg", "plot_residual.png",
                            "plot_residual.svg", "manifest.json", "report.html"})
@@ -72,7 +72,7 @@ TEST_F(Fit, OfALoopWritesWhatTheInterfaceNamesAndAFabricThatIsReadBack) {
 }
 
 TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
-  ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}, {"fabric.density", "0.2"}}), 0);
+  ASSERT_EQ(fit({{"kes.b", 1.157e-5}, {"kes.2hb", 1.216e-3}, {"fabric.density", 0.2}}), 0);
   const std::string file = file_content(out() / "fabric.toml");
   const std::string kept = manifest_in(out()).at("warnings").dump();
   for (const std::string& text : {warned_, file, kept}) {
@@ -109,10 +109,10 @@ TEST_F(Fit, OfAFreeVibrationWritesTheThreeNumbersOfAFabric) {
   const fs::path file = folder_.path() / "decay.csv";
   Table({{"time [s]", series.time}, {"amplitude [m]", series.amplitude}}).write(file);
   ASSERT_EQ(fit({{"decay", file.string()},
-                 {"decay.length", "0.08"},
-                 {"fabric.density", "0.1238"},
-                 {"fabric.thickness", "3e-4"},
-                 {"kes.b", "1.16e-5"}}),
+                 {"decay.length", 0.08},
+                 {"fabric.density", 0.1238},
+                 {"fabric.thickness", 3e-4},
+                 {"kes.b", 1.16e-5}}),
             0);
   const Json m = metrics();
   EXPECT_NEAR(m.at("k0_per_m").get<double>() / kK0, 1, kTenth);
@@ -134,20 +134,16 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
     EXPECT_TRUE(says(reason, part));
   };
   refuses({}, "needs one of --loop");
-  refuses({{"loop", file}, {"kes.b", "1e-5"}}, "not several");
-  refuses({{"kes.b", "1e-5"}}, "needs both --kes.b and --kes.2hb");
-  refuses({{"virgin.b1", "1e-5"}}, "needs both --virgin.b1 and --virgin.c1");
-  refuses({{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"law", "wong"}}, "law needs --loop (no --loop)");
+  refuses({{"loop", file}, {"kes.b", 1e-5}}, "not several");
+  refuses({{"kes.b", 1e-5}}, "needs both --kes.b and --kes.2hb");
+  refuses({{"virgin.b1", 1e-5}}, "needs both --virgin.b1 and --virgin.c1");
+  refuses({{"kes.b", 1e-5}, {"kes.2hb", 1e-3}, {"law", "wong"}}, "law needs --loop (no --loop)");
   refuses({{"loop", file}, {"law", "wongg"}}, "wongg");
-  refuses({{"fab", file}, {"fabric.density", "0.1"}, {"loop", file}}, "not several");
-  refuses({{"fab", file}, {"fabric.density", "0.1"}, {"kes.2hb", "1e-3"}}, "not several");
-  refuses({{"decay", file},
-           {"decay.length", "0.1"},
-           {"fabric.density", "0.1"},
-           {"kes.b", "1e-5"},
-           {"loop", file}},
+  refuses({{"fab", file}, {"fabric.density", 0.1}, {"loop", file}}, "not several");
+  refuses({{"fab", file}, {"fabric.density", 0.1}, {"kes.2hb", 1e-3}}, "not several");
+  refuses({{"decay", file}, {"decay.length", 0.1}, {"fabric.density", 0.1}, {"kes.b", 1e-5}, {"loop", file}},
           "not several");
-  refuses({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
+  refuses({{"kes.b", 0}, {"kes.2hb", 1e-3}}, "must be > 0");
 }
 
 // Friction of 1 mN acts beside a spring that it exceeds tenfold.
@@ -204,11 +200,9 @@ TEST_F(Fit, OfAFreeVibrationTakesTheGivenRigidityAsExact) {
   const Spectrum stops = friction_from_kes({1.16e-5, 4e-4}, {12, 1.6}).stops;
   const fs::path file = folder_.path() / "decay.csv";
   Table({{"time [s]", series.time}, {"amplitude [m]", decay_by(series, question, stops, 0.03)}}).write(file);
-  ASSERT_EQ(fit({{"decay", file.string()},
-                 {"decay.length", "0.08"},
-                 {"fabric.density", "0.1238"},
-                 {"kes.b", "1.16e-5"}}),
-            0);
+  ASSERT_EQ(
+      fit({{"decay", file.string()}, {"decay.length", 0.08}, {"fabric.density", 0.1238}, {"kes.b", 1.16e-5}}),
+      0);
   EXPECT_TRUE(says(said_, " N m (of kes.b, taken as exact), HB = "));
   EXPECT_EQ(said_.find("+- 0 "), said_.npos) << said_;
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
@@ -222,10 +216,10 @@ TEST_F(Fit, OfAFreeVibrationIsDoubtedInWordsOfAmplitudes) {
          {"amplitude [m]", {0.03, 0.03, 0.001, 0.03, 0.001, 0.02, 0.001, 0.001}}})
       .write(file);
   ASSERT_EQ(fit({{"decay", file.string()},
-                 {"decay.length", "0.08"},
-                 {"decay.noise", "0.5"},
-                 {"fabric.density", "0.1238"},
-                 {"kes.b", "1.16e-5"}}),
+                 {"decay.length", 0.08},
+                 {"decay.noise", 0.5},
+                 {"fabric.density", 0.1238},
+                 {"kes.b", 1.16e-5}}),
             0);
   EXPECT_TRUE(says(warned_, "the fit misses the fitted amplitudes by ")) << warned_;
   for (const char* other : {"forces", "gauge", "predictions.csv", "cycles"})
@@ -233,7 +227,7 @@ TEST_F(Fit, OfAFreeVibrationIsDoubtedInWordsOfAmplitudes) {
 }
 
 TEST_F(Fit, DoubtsAKesPairThatNoWovenClothHas) {
-  ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-5"}}), 0);
+  ASSERT_EQ(fit({{"kes.b", 1.157e-5}, {"kes.2hb", 1.216e-5}}), 0);
   EXPECT_TRUE(says(warned_, "kes.2hb is 1.05 1/m of kes.b, and woven cloth has 16 to 300")) << warned_;
 }
 
@@ -251,7 +245,7 @@ TEST_F(Fit, WarnsOfACurvatureWhoseZeroIsOffAndFindsItOnRequest) {
     Table({curvature, moment}).write(file);
     ASSERT_EQ(fit({{"loop", file.string()}, {"law", "bilinear"}}), 0);
     EXPECT_EQ(says(warned_, "the zero of curvature seems to be off by 20 1/m"), offset > 0) << warned_;
-    ASSERT_EQ(fit({{"loop", file.string()}, {"law", "bilinear"}, {"curvature-offset", "true"}}), 0);
+    ASSERT_EQ(fit({{"loop", file.string()}, {"law", "bilinear"}, {"curvature-offset", true}}), 0);
     EXPECT_FALSE(says(warned_, "the zero of curvature"));
     EXPECT_NEAR(metrics().at("curvature_offset_per_m"), offset, 0.1) << "of an amplitude of 150/m";
     EXPECT_NEAR(metrics().at("b2_N_m"), 1e-5, 1e-8) << "the slope beyond the knee";
@@ -296,19 +290,19 @@ class FitOfFab : public Fit {
                                  "hysteron fab",
                                  {{"fabric", "cotton-broad"},
                                   {"fab.compressions", "0.004,0.006"},
-                                  {"fab.steps", "6"},
-                                  {"no-images", "true"},
+                                  {"fab.steps", 6},
+                                  {"no-images", true},
                                   {"out", (folder_.path() / "made").string()},
-                                  {"json", "true"},
-                                  {"quiet", "true"}},
+                                  {"json", true},
+                                  {"quiet", true}},
                                  {}});
     testing::internal::GetCapturedStdout();
   }
   std::vector<Flag> flags(const std::string& file) const {
     return {{"fab", file},
             {"fab.thresholds", "5,20"},
-            {"fabric.density", number_text(cotton_.density)},
-            {"fabric.thickness", "5e-4"}};
+            {"fabric.density", cotton_.density},
+            {"fabric.thickness", 5e-4}};
   }
   std::string made() const { return (folder_.path() / "made" / "fab.csv").string(); }
   // The same rows after a change of each: columns direction, test, branch, distance, force, gauge, width.
@@ -353,7 +347,7 @@ TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
   EXPECT_TRUE(says(reason, "times their noise of 0.00075 N (rms), at most 3 times"));
   EXPECT_TRUE(says(reason, "are fitted with --fab.noise 0.00"));
   std::vector<Flag> noisy = stops;
-  noisy.push_back({"fab.noise", "7.5e-3"});
+  noisy.push_back({"fab.noise", 7.5e-3});
   EXPECT_EQ(fit(noisy), 0);
 }
 
@@ -412,8 +406,8 @@ TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
                     "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
                     "L,D1,0,0.018,0,0.021,0.04\n");
   EXPECT_TRUE(says(refusal({{"fab", file}}), "fabric.density"));
-  EXPECT_TRUE(says(refusal({{"fab", file}, {"units", "fab"}, {"fabric.density", "0.3"}}), "give --units si"));
-  EXPECT_TRUE(says(refusal({{"fab", file}, {"units", "kes"}, {"fabric.density", "0.3"}}), "fab (cm, gf)"));
+  EXPECT_TRUE(says(refusal({{"fab", file}, {"units", "fab"}, {"fabric.density", 0.3}}), "give --units si"));
+  EXPECT_TRUE(says(refusal({{"fab", file}, {"units", "kes"}, {"fabric.density", 0.3}}), "fab (cm, gf)"));
   EXPECT_TRUE(says(refusal({{"loop", file}, {"units", "fab"}}), "--fab"));
 }
 

@@ -221,7 +221,7 @@ TEST(Fold, OfSeveralLawsRefusesTheOneThatIsNone) {
 TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  EXPECT_EQ(run_into(out, "fold", {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}}), 0);
+  EXPECT_EQ(run_into(out, "fold", {{"fold.law-alone", true}, {"fold.cycles", 1000}}), 0);
   const Table cycles = read_csv(out / "cycles.csv", {"cycle", "2HB [N]"}, {}, "test");
   EXPECT_EQ(cycles.numbers("cycle").back(), 1000);
   EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
@@ -229,15 +229,15 @@ TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
 
 TEST(Fold, RefusesWhatCannotBeFolded) {
   const Folder folder;
-  const std::vector<Flag> wrong = {{"fold.stroke", "1.2"}, {"fold.stroke", "0"},   {"fold.cycles", "0"},
-                                   {"fold.period", "0"},   {"fold.fatigue", "-1"}, {"fold.curvature", "0"},
-                                   {"element", "hinge"},   {"param", "stops=4"},   {"fold.tension", "1"}};
+  const std::vector<Flag> wrong = {{"fold.stroke", 1.2}, {"fold.stroke", 0},   {"fold.cycles", 0},
+                                   {"fold.period", 0},   {"fold.fatigue", -1}, {"fold.curvature", 0},
+                                   {"element", "hinge"}, {"param", "stops=4"}, {"fold.tension", "1"}};
   for (const Flag& flag : wrong) {
     // The law's own stops: the parameter says nothing of a fabric's.
     const std::string said = test::refusal([&] {
       run_into(folder.path() / "run", "fold", {{"fabric", "cotton-broad-k50"}, flag});
     });
-    EXPECT_NE(said, "(accepted)") << flag.path << " = " << flag.text;
+    EXPECT_NE(said, "(accepted)") << flag.path << " = " << flag.text();
   }
 }
 

@@ -20,7 +20,7 @@ std::vector<std::string> all_laws() {
 class KesCommand : public testing::Test {
  protected:
   Json run(std::vector<Flag> flags) {
-    flags.push_back({"quick", "true"});
+    flags.push_back({"quick", true});
     EXPECT_EQ(run_into(folder_.path(), "kes", std::move(flags)), 0);
     return manifest_in(folder_.path());
   }
@@ -48,7 +48,7 @@ TEST_F(KesCommand, TestsEveryLawAndWritesItsTables) {
 TEST_F(KesCommand, ReadsFaceAndBackWhereTheyDiffer) {
   constexpr double kReads = 5e-3;
   const Json manifest =
-      run({{"law", "prandtl,wong"}, {"fabric.back-bending", "1.3"}, {"fabric.back-friction", "0.8"}});
+      run({{"law", "prandtl,wong"}, {"fabric.back-bending", 1.3}, {"fabric.back-friction", 0.8}});
   const auto number = [&](const char* metric) { return manifest["metrics"][metric].get<double>(); };
   EXPECT_NEAR(number("prandtl.B_back_N_m") / number("prandtl.B_face_N_m"), 1.3, kReads);
   EXPECT_NEAR(number("prandtl.2HB_back_N") / number("prandtl.2HB_face_N"), 0.8, kReads);
@@ -63,11 +63,11 @@ TEST_F(KesCommand, ReadsFaceAndBackWhereTheyDiffer) {
 
 TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
   EXPECT_TRUE(run({}).value("warnings", Json::array()).empty());
-  const std::string unusual = run({{"fabric.b1", "0.3"}})["warnings"].dump();
+  const std::string unusual = run({{"fabric.b1", 0.3}})["warnings"].dump();
   EXPECT_TRUE(says(unusual, "fabric.b1 = 0.3 N m (--fabric.b1) is unusual"));
   const std::string unused = run({{"param", "stops=4"},
-                                  {"fabric.bending.stops.thresholds", "4 20"},
-                                  {"fabric.bending.stops.stiffnesses", "3e-5 5e-6"}})["warnings"]
+                                  {"fabric.bending.stops.thresholds", Numbers{4, 20}},
+                                  {"fabric.bending.stops.stiffnesses", Numbers{3e-5, 5e-6}}})["warnings"]
                                  .dump();
   EXPECT_TRUE(says(unused, "param stops is not used: the 2 stops of cotton-broad are the law's memory"));
   const fs::path file = folder_.path() / "rubs-otherwise.toml";
@@ -80,14 +80,14 @@ TEST_F(KesCommand, WarnsOfUnusualFabricsAndOfParametersThatChangeNothing) {
   const std::string stops_along_weft =
       run({{"law", "wong"},
            {"along", "weft"},
-           {"fabric.bending.stops.thresholds", "4 20"},
-           {"fabric.bending.stops.stiffnesses", "3e-5 5e-6"},
-           {"fabric.bending.stops.weft.thresholds", "4 20"},
-           {"fabric.bending.stops.weft.stiffnesses", "1e-5 2e-6"}})["warnings"]
+           {"fabric.bending.stops.thresholds", Numbers{4, 20}},
+           {"fabric.bending.stops.stiffnesses", Numbers{3e-5, 5e-6}},
+           {"fabric.bending.stops.weft.thresholds", Numbers{4, 20}},
+           {"fabric.bending.stops.weft.stiffnesses", Numbers{1e-5, 2e-6}}})["warnings"]
           .dump();
   EXPECT_TRUE(
       says(stops_along_weft, "fabric.bending.stops.weft of cotton-broad changes nothing under law wong"));
-  const std::string tension = run({{"test", "tension"}, {"fabric.warp", "2e6"}})["warnings"].dump();
+  const std::string tension = run({{"test", "tension"}, {"fabric.warp", 2e6}})["warnings"].dump();
   EXPECT_TRUE(says(tension, "fabric.warp = 2e+06 N/m (--fabric.warp) is unusual"));
 }
 
@@ -95,18 +95,18 @@ TEST_F(KesCommand, WarnsOfStepsThatAreTooLongForTheAreaOfALoop) {
   const auto warnings = [&](const std::vector<Flag>& flags) {
     return run(flags).value("warnings", Json::array()).dump();
   };
-  EXPECT_EQ(warnings({{"steps", "10"}}), "[]") << "of a law that takes no time";
+  EXPECT_EQ(warnings({{"steps", 10}}), "[]") << "of a law that takes no time";
   EXPECT_TRUE(
-      says(warnings({{"steps", "10"}, {"law", "kim"}}), "law kim, steps = 10: the area of the loop is "));
-  const std::vector<Flag> strip = {{"on", "strip"}, {"cloth.width", "1e-3"}};
+      says(warnings({{"steps", 10}, {"law", "kim"}}), "law kim, steps = 10: the area of the loop is "));
+  const std::vector<Flag> strip = {{"on", "strip"}, {"cloth.width", 1e-3}};
   EXPECT_EQ(warnings(strip), "[]");
   std::vector<Flag> coarse = strip;
-  coarse.push_back({"strip-steps", "10"});
+  coarse.push_back({"strip-steps", 10});
   EXPECT_TRUE(says(warnings(coarse), "strip under law prandtl, strip-steps = 10: the area of the loop is "));
 }
 
 TEST_F(KesCommand, TakesAFabricsNumbersFromFlags) {
-  const Json manifest = run({{"fabric", "cotton_broad"}, {"fabric.b2", "2e-5"}, {"law", "linear"}});
+  const Json manifest = run({{"fabric", "cotton_broad"}, {"fabric.b2", 2e-5}, {"law", "linear"}});
   EXPECT_NEAR(manifest["metrics"]["B_N_m"].get<double>(), 2e-5, kRounding * 2e-5);
   EXPECT_EQ(manifest["scene"]["fabric"]["b2"], 2e-5);
   EXPECT_EQ(manifest["scene"]["fabric"]["provenance"]["b2"]["confidence"], "given");

@@ -11,7 +11,7 @@ constexpr double kReturnedByLaw = 1, kReturnedByCloth = 3;  // [percent], asked 
 class KesInPlane : public testing::Test {
  protected:
   Json metrics(std::vector<Flag> flags) {
-    flags.push_back({"quick", "true"});
+    flags.push_back({"quick", true});
     EXPECT_EQ(run_into(folder_.path(), "kes", std::move(flags)), 0);
     return metrics_of(folder_.path());
   }
@@ -54,20 +54,20 @@ TEST_F(KesInPlane, ReadsTheLawsNumbersFromASpecimenOfCloth) {
 
 // A fabric may be softer along weft; stops are keys like any other.
 TEST_F(KesInPlane, TestsTheDirectionAndTheStopsThatFlagsName) {
-  const std::vector<Flag> weft = {{"test", "tension"}, {"fabric.weft", "2000"}, {"along", "weft"}};
+  const std::vector<Flag> weft = {{"test", "tension"}, {"fabric.weft", 2000}, {"along", "weft"}};
   const Json elastic = metrics(weft);
   constexpr double kTrapezium = 1e-4;  // [percent]
   EXPECT_NEAR(elastic["RT_percent"].get<double>(), 100, kTrapezium);
   std::vector<Flag> rubbing = weft;
-  rubbing.push_back({"fabric.membrane.stops.weft.thresholds", "0.002"});
-  rubbing.push_back({"fabric.membrane.stops.weft.stiffnesses", "5000"});
+  rubbing.push_back({"fabric.membrane.stops.weft.thresholds", Numbers{0.002}});
+  rubbing.push_back({"fabric.membrane.stops.weft.stiffnesses", Numbers{5000}});
   const Json loses = metrics(rubbing);
   EXPECT_LT(loses["RT_percent"].get<double>(), 95);
   EXPECT_LT(loses["EMT_percent"].get<double>(), elastic["EMT_percent"].get<double>());
   // Springs and stops, at a tenth of the load.
-  rubbing.push_back({"load", "49"});
+  rubbing.push_back({"load", 49});
   EXPECT_LT(metrics(rubbing)["EMT_percent"].get<double>(), loses["EMT_percent"].get<double>() / 5);
-  EXPECT_THROW(metrics({{"test", "tension"}, {"load", "1e5"}}), Error);
+  EXPECT_THROW(metrics({{"test", "tension"}, {"load", 1e5}}), Error);
 }
 
 TEST_F(KesInPlane, RefusesFlagsOfAnotherTest) {
@@ -75,7 +75,7 @@ TEST_F(KesInPlane, RefusesFlagsOfAnotherTest) {
     experiment_named("kes").run({"kes", "hysteron kes", std::move(flags), {}});
   };
   EXPECT_THROW(run({{"test", "shear"}, {"law", "pabst"}}), Error);
-  EXPECT_THROW(run({{"test", "bending"}, {"load", "100"}}), Error);
+  EXPECT_THROW(run({{"test", "bending"}, {"load", 100}}), Error);
   EXPECT_THROW(run({{"test", "twist"}}), Error);
 }
 

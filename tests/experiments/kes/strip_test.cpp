@@ -270,7 +270,7 @@ TEST(KesStrip, ThatCannotBeTestedIsRefusedInASentence) {
 TEST(KesStripCommand, PutsTheStripBesideTheLaw) {
   const Folder folder;
   ASSERT_EQ(run_into(folder.path(), "kes",
-                     {{"on", "strip"}, {"mesh", "random"}, {"triangles", "100"}, {"quick", "true"}}),
+                     {{"on", "strip"}, {"mesh", "random"}, {"triangles", 100}, {"quick", true}}),
             0);
   const Json metrics = metrics_of(folder.path());
   for (const char* key :

@@ -19,7 +19,7 @@ class LawCommand : public ::testing::Test {
   void write(const std::string& text) { std::ofstream(in_) << text; }
   // The flags replace those of the usual law, or are added to them.
   int run(std::vector<Flag> flags = {}) {
-    std::vector<Flag> all = {{"law", "wong"}, {"b1", "4e-5"}, {"b2", "1e-5"}, {"k0", "50"}};
+    std::vector<Flag> all = {{"law", "wong"}, {"b1", 4e-5}, {"b2", 1e-5}, {"k0", 50}};
     all.insert(all.end(), {{"in", in_}, {"out", out_}});
     all.insert(all.end(), flags.begin(), flags.end());
     return experiment_named("law").run({"law", "hysteron law", all, {}});
@@ -53,8 +53,8 @@ TEST_F(LawCommand, WritesMomentTangentAndEnergiesForEveryRow) {
 }
 
 TEST_F(LawCommand, RefusesTheChaptersSignOfTheRigidities) {
-  EXPECT_TRUE(says(refusal({{"b1", "1e-5"}, {"b2", "2e-5"}}),
-                   "--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"));
+  EXPECT_TRUE(
+      says(refusal({{"b1", 1e-5}, {"b2", 2e-5}}), "--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"));
 }
 
 TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
@@ -70,13 +70,13 @@ TEST_F(LawCommand, RefusesWhatNoFabricHas) {
   write("curvature [1/m]\n50\n1e300\n");
   EXPECT_TRUE(says(refusal(), "k.csv:3: curvature = 1e+300 1/m must be within +-1e+06 1/m"));
   write("curvature [1/m]\n1\n");
-  EXPECT_TRUE(says(refusal({{"b1", "20"}}), "b1 = 20 N m must be in [0, 10] N m, as fabrics can be"));
+  EXPECT_TRUE(says(refusal({{"b1", 20}}), "b1 = 20 N m must be in [0, 10] N m, as fabrics can be"));
 }
 
 TEST_F(LawCommand, WarnsOfUnusualNumbersWithTheUnitThatWasProbablyMeant) {
   EXPECT_EQ(warnings(), "");
   // 0.3 gf cm^2/cm times 9.80665e-5 N m.
-  EXPECT_TRUE(says(warnings({{"b1", "0.3"}}),
+  EXPECT_TRUE(says(warnings({{"b1", 0.3}}),
                    "warning: b1 = 0.3 N m (--b1) is unusual: fabrics have 1e-08 to 0.001 N m; gf cm^2/cm "
                    "given? Then it is 2.94e-05 N m"));
 }

@@ -6,10 +6,10 @@
 namespace hysteron::experiments {
 namespace {
 
-using Numbers = std::vector<std::int64_t>;
+using Indices = std::vector<std::int64_t>;
 using Files = std::vector<int>;
 
-TimedSequence numbered(const std::string& name, const Numbers& numbers, double fps) {
+TimedSequence numbered(const std::string& name, const Indices& numbers, double fps) {
   TimedSequence sequence;
   sequence.name = name;
   sequence.fps = fps;
@@ -47,8 +47,8 @@ TEST(Instants, PairEqualTimesWhereRatesDiffer) {
 TEST(Instants, CountFromTheCommonFirstNumberInStepsOfTheFiles) {
   TimedSequence a = numbered("a", {1, 11, 21}, 0), b = numbered("b", {1, 21}, 0);
   choose(a, b);
-  EXPECT_EQ(a.frame, (Numbers{0, 1, 2}));
-  EXPECT_EQ(b.frame, (Numbers{0, 2}));
+  EXPECT_EQ(a.frame, (Indices{0, 1, 2}));
+  EXPECT_EQ(b.frame, (Indices{0, 2}));
   EXPECT_EQ(a.shown, (Files{0, 2}));
 }
 
@@ -88,7 +88,7 @@ TEST(Instants, OfASequenceAloneWithoutNumbersAreWarnedOf) {
 TEST(Instants, OfNumbersInStepsOfMoreThanOneAreWarnedOf) {
   TimedSequence halved = numbered("halved", {0, 2, 4, 6}, 10), late = numbered("late", {5, 6, 7}, 10);
   number_frames({&halved});
-  EXPECT_EQ(halved.frame, (Numbers{0, 1, 2, 3}));
+  EXPECT_EQ(halved.frame, (Indices{0, 1, 2, 3}));
   EXPECT_EQ(
       frame_warnings({&halved}),
       (std::vector<std::string>{
@@ -104,7 +104,7 @@ TEST(Instants, OfSeveralFilesKeepTheirGapsBesideASingleFile) {
   TimedSequence gap = numbered("gap", {3, 4, 9}, 10), single = numbered("single", {0}, 10);
   single.number.clear();
   choose(gap, single);
-  EXPECT_EQ(gap.frame, (Numbers{0, 1, 6}));
+  EXPECT_EQ(gap.frame, (Indices{0, 1, 6}));
   EXPECT_EQ(gap.shown, (Files{0}));
   EXPECT_EQ(single.shown, (Files{0}));
 }

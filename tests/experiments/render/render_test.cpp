@@ -17,7 +17,7 @@ using FlagList = std::vector<Flag>;
 
 int rendered(const fs::path& out, const std::vector<std::string>& names, FlagList flags) {
   flags.push_back({"out", out.string()});
-  flags.push_back({"quiet", "true"});
+  flags.push_back({"quiet", true});
   if (std::none_of(flags.begin(), flags.end(), [](const Flag& f) { return f.path == "size"; }))
     flags.push_back({"size", "160x120"});
   return experiment_named("render").run({"render", "hysteron render", flags, names});
@@ -43,17 +43,18 @@ struct Twins {
   fs::path run = folder.path() / "run", files = folder.path() / "files";
 
   Twins(const std::string& format, const std::string& look, FlagList further = {}) {
-    const FlagList common = {{"size", "480x270"}, {"look", look}, {"fps", "10"}};
-    FlagList flags = {{"out", run.string()}, {"quiet", "true"},  {"quick", "true"},
-                      {"export", format},    {"seconds", "0.3"}, {"probe", "none"}};
+    const FlagList common = {{"size", "480x270"}, {"look", look}};
+    FlagList flags = {{"out", run.string()}, {"quiet", true},   {"quick", true}, {"export", format},
+                      {"seconds", 0.3},      {"probe", "none"}, {"fps", 10}};
     flags.insert(flags.end(), common.begin(), common.end());
     run_experiment({"swing", "hysteron swing", flags, {}});
     // Swing's own strip is 90 x 30 mm
     flags = {
-        {"camera.direction", "0.2 -1 0.3"},
-        {"camera.fov", "24"},
-        {"render.low", "-0.063 0 -0.09"},
-        {"render.high", "0.09 0.03 0.0135"},
+        {"fps", "10"},
+        {"camera.direction", Numbers{0.2, -1, 0.3}},
+        {"camera.fov", 24},
+        {"render.low", Numbers{-0.063, 0, -0.09}},
+        {"render.high", Numbers{0.09, 0.03, 0.0135}},
         {"render.title", manifest_in(run)["scene"]["fabric"]["name"].get<std::string>() + ", law prandtl"}};
     flags.insert(flags.end(), common.begin(), common.end());
     flags.insert(flags.end(), further.begin(), further.end());
@@ -241,7 +242,7 @@ TEST(RenderedFiles, AFurtherDirectionIsAFurtherRowOfTheSheet) {
     write(fs::path(sequences.back()) / "0.obj", swaying(time, metres));
   }
   EXPECT_EQ(rendered(folder.path() / "one", sequences, {}), 0);
-  EXPECT_EQ(rendered(folder.path() / "two", sequences, {{"render.also", "0 -0.02 1"}}), 0);
+  EXPECT_EQ(rendered(folder.path() / "two", sequences, {{"render.also", Numbers{0, -0.02, 1}}}), 0);
   const auto picture = [&](const char* out, const char* file) {
     return render::read_png(folder.path() / out / file);
   };
@@ -290,7 +291,8 @@ TEST(RenderedFiles, ThatAreBesideTheirPictureFail) {
   const Folder folder;
   const std::string mesh = write(folder.path() / "flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Error error = test::thrown_error([&] {
-    rendered(folder.path() / "out", {mesh}, {{"render.low", "5 5 5"}, {"render.high", "6 6 6"}});
+    rendered(folder.path() / "out", {mesh},
+             {{"render.low", Numbers{5, 5, 5}}, {"render.high", Numbers{6, 6, 6}}});
   });
   EXPECT_EQ(error.exit_code(), 3);
   EXPECT_EQ(error.what(), "mesh " + mesh + " is not in its picture: frame where it is");
@@ -324,7 +326,7 @@ TEST(RenderedFiles, OptionsOutOfRangeAreRefused) {
   const std::string good = write(folder.path() / "good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(refusal({good}, {{"render.ground", "low"}}),
             "render.ground = low must be a height [m] or none (--render.ground)");
-  EXPECT_EQ(refusal({good}, {{"render.low", "1 0 0"}, {"render.high", "0 1 1"}}),
+  EXPECT_EQ(refusal({good}, {{"render.low", Numbers{1, 0, 0}}, {"render.high", Numbers{0, 1, 1}}}),
             "render.low must be less than render.high in x, y and z (--render.low, --render.high)");
   EXPECT_EQ(refusal({good}, {{"look", "friction"}}),
             "look = friction must be cloth | grid | clay | curvature | wireframe | silhouette (--look)");

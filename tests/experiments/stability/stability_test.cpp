@@ -261,8 +261,8 @@ TEST(LimitSearch, MarksALimitBeyondItsEnd) {
 class StabilityCommand : public testing::Test {
  protected:
   int run(std::vector<Flag> flags, bool with_plots = false) {
-    flags.insert(flags.end(), {{"quick", "true"}, {"quiet", "true"}, {"out", folder_.path().string()}});
-    if (!with_plots) flags.push_back({"no-images", "true"});
+    flags.insert(flags.end(), {{"quick", true}, {"quiet", true}, {"out", folder_.path().string()}});
+    if (!with_plots) flags.push_back({"no-images", true});
     return experiment_named("stability").run({"stability", "hysteron stability", std::move(flags), {}});
   }
   Json manifest() const { return manifest_in(folder_.path()); }
@@ -309,7 +309,7 @@ TEST_F(StabilityCommand, MeasuresTheExplicitLimitOnEveryMesh) {
 
 TEST_F(StabilityCommand, RefusesAPartOfALimitStep) {
   EXPECT_TRUE(says(test::refusal([&] {
-                     run({{"sweep", "explicit-limit"}, {"limit-steps", "100.5"}});
+                     run({{"sweep", "explicit-limit"}, {"limit-steps", 100.5}});
                    }),
                    "limit-steps = 100.5 must be a whole number"));
 }
@@ -360,7 +360,7 @@ TEST_F(StabilityCommand, RefusesNamesThatAreUnknownOrStandTwice) {
 }
 
 TEST_F(StabilityCommand, TakesAllLawsByOneName) {
-  constexpr const char* kNoTime = "1";  // a step of each cell
+  constexpr double kNoTime = 1;  // a step of each cell
   ASSERT_EQ(
       run({{"sweep", "density-step"}, {"integrator", "semi-implicit"}, {"law", "all"}, {"work", kNoTime}}),
       0);

@@ -9,10 +9,10 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kRotated = 1e-3;  // of what friction takes: rounding that other axes make, after a second
-const std::vector<Flag> kShort = {{"seconds", "1.2"}, {"device", "cpu"}};
+const std::vector<Flag> kShort = {{"seconds", 1.2}, {"device", "cpu"}};
 
 Json swing_with(std::vector<Flag> flags) {
-  if (last_text(flags, "cloth.file", "").empty()) flags.push_back({"triangles", "60"});
+  if (last_text(flags, "cloth.file", "").empty()) flags.push_back({"triangles", 60});
   flags.insert(flags.end(), kShort.begin(), kShort.end());
   return metrics_with("swing", flags);
 }
@@ -45,14 +45,14 @@ void expect_same_swing(const Json& a, const Json& b) {
 
 TEST(Swing, IsTheSameWhereverTheStripPoints) {
   const Json along_x = swing_with({});
-  for (const char* rotation : {"0 0 90", "0 0 180", "0 0 -30"})
-    expect_same_swing(along_x, swing_with({{"cloth.rotation", rotation}}));
+  for (const double angle : {90, 180, -30})
+    expect_same_swing(along_x, swing_with({{"cloth.rotation", Numbers{0, 0, angle}}}));
 }
 
 TEST(Swing, WithoutGravityOrInertiaIsSaidToStandStill) {
-  const std::vector<Flag> few = {{"seconds", "0.1"}, {"triangles", "60"}, {"device", "cpu"}};
+  const std::vector<Flag> few = {{"seconds", 0.1}, {"triangles", 60}, {"device", "cpu"}};
   for (const Flag& still :
-       {Flag{"gravity", "0 0 0"}, Flag{"integrator", "quasi-static"}, Flag{"fps", "30"}}) {
+       {Flag{"gravity", Numbers{0, 0, 0}}, Flag{"integrator", "quasi-static"}, Flag{"fps", 30}}) {
     const Folder folder;
     std::vector<Flag> flags = few;
     flags.push_back(still);
@@ -86,7 +86,7 @@ TEST(Swing, OfAMeshWhoseYIsUpIsRefusedUntilItIsLaidLevel) {
   EXPECT_TRUE(says(refused(line), "gravity acts in that plane"));
   EXPECT_TRUE(says(refused(line), "--cloth.rotation \"90 0 0\" lays it level"));
   const Json level =
-      swing_with({{"cloth.file", file}, {"cloth.shape", "file"}, {"cloth.rotation", "90 0 0"}});
+      swing_with({{"cloth.file", file}, {"cloth.shape", "file"}, {"cloth.rotation", Numbers{90, 0, 0}}});
   const Json flat = swing_with({{"cloth.file", strip_file(folder.path(), {0, 0})}, {"cloth.shape", "file"}});
   expect_same_swing(flat, level);
 }
@@ -142,16 +142,16 @@ TEST(Specimens, ThatLieWhereTheirMachineIsAreNotTurned) {
 // Elasticity and friction with directions of their own: what friction takes is what is missing, and cut along
 // warp the strip knows nothing of weft.
 TEST(Swing, KeepsItsEnergyBalanceWhereFrictionHasDirectionsOfItsOwn) {
-  const auto swung = [](const char* law, const char* angle, const char* friction) {
+  const auto swung = [](const char* law, double angle, double friction) {
     return swing_with({{"law", law},
-                       {"seconds", "0.3"},
+                       {"seconds", 0.3},
                        {"cloth.warp-angle", angle},
-                       {"fabric.weft-bending", "0.4"},
-                       {"fabric.bias-bending", "0.7"},
+                       {"fabric.weft-bending", 0.4},
+                       {"fabric.bias-bending", 0.7},
                        {"fabric.weft-friction", friction}});
   };
   for (const char* law : {"wong", "prandtl", "dahl"}) {
-    const Json own = swung(law, "30", "1.4"), other = swung(law, "30", "0.3");
+    const Json own = swung(law, 30, 1.4), other = swung(law, 30, 0.3);
     constexpr double kRounding = 1e-10;  // of the energy that moves
     EXPECT_LT(std::abs(own["energy_remainder_relative"].get<double>()), kRounding) << law;
     EXPECT_GT(own["bending_friction_J"], other["bending_friction_J"]) << law;

@@ -174,7 +174,7 @@ std::string duration_refusal(const std::string& text, const std::vector<Flag>& f
 }
 
 TEST(Duration, OfASceneThatEndsBeforeItsFirstStepIsRefused) {
-  EXPECT_TRUE(says(duration_refusal("step = 0.02\n", {{"seconds", "0.01"}}),
+  EXPECT_TRUE(says(duration_refusal("step = 0.02\n", {{"seconds", 0.01}}),
                    ":1) must be <= seconds = 0.01 s (--seconds)"));
   EXPECT_EQ(duration_refusal("step = 0.02\nseconds = 0.02\n"), kAccepted);
   EXPECT_EQ(duration_refusal("step = 0.02\nseconds = 0\n"), kAccepted);  // the start alone
@@ -189,7 +189,7 @@ TEST(Duration, HasRoomForEveryCommand) {
 TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {
   Scene scene = default_scene();
   const auto refused = [&](const Flag& flag) { return refusal([&] { apply_flags(scene, {flag}); }); };
-  EXPECT_EQ(refused({"fabric.b2", "-1"}), "fabric.b2 = -1 N m must be >= 0 (--fabric.b2)");
+  EXPECT_EQ(refused({"fabric.b2", -1}), "fabric.b2 = -1 N m must be >= 0 (--fabric.b2)");
   EXPECT_EQ(refused({"step", "1e-3s"}), "step = \"1e-3s\" must be a number in (0, 1] [s] (--step)");
   EXPECT_EQ(refused({"param", "stops"}), "param = \"stops\" must be of the form name=value (--param)");
 }
@@ -208,7 +208,7 @@ TEST(BadFlag, OfNumbersLacksNoneBetweenCommas) {
 
 TEST(BadFlag, ContradictingTheFabricFileNamesBothPlaces) {
   Scene scene = default_scene("wool-tropical");
-  apply_flags(scene, {{"fabric.b2", "1e-3"}});
+  apply_flags(scene, {{"fabric.b2", 1e-3}});
   EXPECT_TRUE(says(refusal([&] { check_scene(scene); }),
                    "wool-tropical.toml:", "fabric.b2 = 0.001 N m (--fabric.b2)"));
 }

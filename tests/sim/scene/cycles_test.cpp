@@ -24,7 +24,7 @@ const std::string kBackAndForth =
 
 Scene scene_with(int cycles, const std::string& text = "") {
   Scene scene = scene_of(text + kCyclicPhases);
-  apply_flags(scene, {{"cycles", std::to_string(cycles)}});
+  apply_flags(scene, {{"cycles", cycles}});
   return scene;
 }
 
@@ -100,7 +100,7 @@ TEST(Cycles, AreReadBackFromAManifest) {
   EXPECT_EQ(to_json(again), to_json(scene));
   EXPECT_EQ(again.seconds, 3.75);
   EXPECT_EQ(again.obstacle[0].motion.cycles.count, 3);
-  apply_flags(again, {{"cycles", "2"}});
+  apply_flags(again, {{"cycles", 2}});
   EXPECT_EQ(again.seconds, 2.75);
   EXPECT_EQ(again.obstacle[0].motion.cycles.count, 2);
 }

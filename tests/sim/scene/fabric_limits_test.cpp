@@ -16,7 +16,7 @@ namespace {
 
 using test::says;
 
-std::string refusal_of(const std::string& key, const std::string& value) {
+std::string refusal_of(const std::string& key, double value) {
   Scene scene = default_scene();
   return test::refusal([&] {
     apply_flags(scene, {{key, value}});
@@ -25,15 +25,15 @@ std::string refusal_of(const std::string& key, const std::string& value) {
 }
 
 TEST(FabricLimits, RefuseWhatNoFabricHasAndNameTheUnitThatWasProbablyMeant) {
-  const std::string density = refusal_of("fabric.density", "124");
+  const std::string density = refusal_of("fabric.density", 124);
   EXPECT_TRUE(says(density, "fabric.density = 124 kg/m^2 must be in [0.001, 20] kg/m^2"));
   EXPECT_TRUE(says(density, "g/m^2 given? Then it is 0.124 kg/m^2"));
   EXPECT_TRUE(says(density, "(--fabric.density)"));
-  EXPECT_TRUE(says(refusal_of("fabric.thickness", "0.4"), "mm given? Then it is 0.0004 m"));
+  EXPECT_TRUE(says(refusal_of("fabric.thickness", 0.4), "mm given? Then it is 0.0004 m"));
   // 0.118 gf cm^2/cm times 9.80665e-5 N m.
-  EXPECT_TRUE(says(refusal_of("fabric.kes-b", "0.118"), "fabric.kes-b = 0.118 N m must be"));
-  EXPECT_TRUE(says(refusal_of("fabric.kes-b", "0.118"), "gf cm^2/cm given? Then it is 1.16e-05 N m"));
-  EXPECT_TRUE(says(refusal_of("fabric.weft-bending", "1e-5"), "It is a ratio"));
+  EXPECT_TRUE(says(refusal_of("fabric.kes-b", 0.118), "fabric.kes-b = 0.118 N m must be"));
+  EXPECT_TRUE(says(refusal_of("fabric.kes-b", 0.118), "gf cm^2/cm given? Then it is 1.16e-05 N m"));
+  EXPECT_TRUE(says(refusal_of("fabric.weft-bending", 1e-5), "It is a ratio"));
 }
 
 TEST(FabricLimits, RefuseThemInAFabricsFileAtTheirLine) {
@@ -57,21 +57,21 @@ TEST(FabricLimits, RefuseFacesThatDifferBesideWhatHasNoSide) {
       check_scene(scene);
     });
   };
-  const Flag back = {"fabric.back-friction", "1.5"};
+  const Flag back = {"fabric.back-friction", 1.5};
   EXPECT_NO_THROW({
     Scene scene = default_scene();
-    apply_flags(scene, {back, {"fabric.back-bending", "0.8"}, {"fabric.weft-friction", "0.9"}});
+    apply_flags(scene, {back, {"fabric.back-bending", 0.8}, {"fabric.weft-friction", 0.9}});
     check_scene(scene);
   });
-  EXPECT_TRUE(says(
-      refusal_with({back, {"fabric.bending.set.yield", "400"}, {"fabric.bending.set.hardening", "5e-6"}}),
-      "fabric.back-friction = 1.5 (--fabric.back-friction) goes without fabric.bending.set"));
+  EXPECT_TRUE(
+      says(refusal_with({back, {"fabric.bending.set.yield", 400}, {"fabric.bending.set.hardening", 5e-6}}),
+           "fabric.back-friction = 1.5 (--fabric.back-friction) goes without fabric.bending.set"));
   EXPECT_TRUE(
       says(refusal_with({back, {"param", "fatigue.dc=0.5"}}), "no fatigue goes with faces that differ"));
   EXPECT_TRUE(says(refusal_with({back, {"param", "stops=16"}}), "stops = 16 must be 8"));
   EXPECT_TRUE(says(refusal_with({back, {"param", "memory=stack"}}), "memory = stack must be stops"));
   // HB of cotton broad is 52.5/m times B: 3 times as much to the back needs 105/(1.8 m).
-  EXPECT_TRUE(says(refusal_with({{"fabric.back-friction", "3"}}), "needs bends of +-58"));
+  EXPECT_TRUE(says(refusal_with({{"fabric.back-friction", 3}}), "needs bends of +-58"));
 }
 
 // Nobody has mistaken its unit.
@@ -90,7 +90,7 @@ TEST(FabricLimits, NameTheExperimentThatHasSetANumber) {
 TEST(FabricLimits, WarnOfTheUnusualWhichRuns) {
   Scene scene = default_scene();
   EXPECT_TRUE(fabric_warnings(scene).empty());
-  apply_flags(scene, {{"fabric.k0", "0.5"}, {"fabric.density", "3"}});
+  apply_flags(scene, {{"fabric.k0", 0.5}, {"fabric.density", 3}});
   EXPECT_NO_THROW(check_scene(scene));
   const std::vector<std::string> warnings = fabric_warnings(scene);
   ASSERT_EQ(warnings.size(), 2u);
@@ -137,9 +137,9 @@ TEST(FabricLimits, WarnOfThresholdsInAnotherUnit) {
 
 TEST(FabricLimits, AreAskedByWhoHasNoScene) {
   EXPECT_TRUE(checked_fabric_warnings("cotton-broad").empty());
-  EXPECT_EQ(checked_fabric_warnings("cotton-broad", {{"fabric.density", "3"}, {"out", "x"}}).size(), 1u);
+  EXPECT_EQ(checked_fabric_warnings("cotton-broad", {{"fabric.density", 3}, {"out", "x"}}).size(), 1u);
   EXPECT_TRUE(says(test::refusal([&] {
-                     checked_fabric_warnings("cotton-broad", {{"fabric.density", "124"}});
+                     checked_fabric_warnings("cotton-broad", {{"fabric.density", 124}});
                    }),
                    "fabric.density = 124 kg/m^2 must be"));
 }

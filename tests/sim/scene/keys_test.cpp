@@ -56,10 +56,10 @@ TEST(FrictionOfAFabric, IsWhatWasSetLast) {
 // In any order: what one command line says twice is refused.
 TEST(FrictionOfAFabric, IsNotSaidTwiceByOneSource) {
   using Flags = std::vector<Flag>;
-  const Flags pair = {{"fabric.kes-b", "1e-5"}, {"fabric.kes-2hb", "1e-3"}};
-  for (const Flags& other : {Flags{{"fabric.b1", "5e-5"}}, Flags{{"fabric.b2", "2e-5"}},
-                             Flags{{"fabric.bending.stops.thresholds", "4 15"},
-                                   {"fabric.bending.stops.stiffnesses", "9e-6 5e-6"}}})
+  const Flags pair = {{"fabric.kes-b", 1e-5}, {"fabric.kes-2hb", 1e-3}};
+  for (const Flags& other : {Flags{{"fabric.b1", 5e-5}}, Flags{{"fabric.b2", 2e-5}},
+                             Flags{{"fabric.bending.stops.thresholds", Numbers{4, 15}},
+                                   {"fabric.bending.stops.stiffnesses", Numbers{9e-6, 5e-6}}}})
     for (const bool pair_first : {true, false}) {
       Flags flags = pair_first ? pair : other;
       const Flags& rest = pair_first ? other : pair;
@@ -79,7 +79,7 @@ TEST(FrictionOfAFabric, OfAPairIsChangedByEitherNumberOfIt) {
                    "8\nweft-bending = 1\n"
                    "warp = 200\nweft = 200\nshear = 40\ndamping = 1e-3\nfriction = 0.3\n");
   Scene scene = default_scene();
-  apply_flags(scene, {{"fabric", file}, {"fabric.kes-2hb", "2e-3"}});
+  apply_flags(scene, {{"fabric", file}, {"fabric.kes-2hb", 2e-3}});
   EXPECT_NO_THROW(check_scene(scene));
   EXPECT_DOUBLE_EQ(scene.fabric.b2, 1e-5);
   EXPECT_DOUBLE_EQ(scene.fabric.b1, 1e-5 + 2e-3 / 8);
@@ -134,16 +134,16 @@ TEST(FrictionOfAFabric, OfATesterNamesWhatIsMissing) {
     apply_flags(scene, flags);
     return test::refusal([&] { check_scene(scene); });
   };
-  const Flag rigidity = {"fabric.kes-b", "1e-5"}, width = {"fabric.kes-2hb", "1e-3"},
-             median = {"fabric.stops-median", "17"}, spread = {"fabric.stops-spread", "2"},
-             no_width = {"fabric.kes-2hb", "0"};
+  const Flag rigidity = {"fabric.kes-b", 1e-5}, width = {"fabric.kes-2hb", 1e-3},
+             median = {"fabric.stops-median", 17}, spread = {"fabric.stops-spread", 2},
+             no_width = {"fabric.kes-2hb", 0};
   const std::pair<std::vector<Flag>, const char*> cases[] = {
       {{no_width},
        "fabric.kes-2hb = 0 N (--fabric.kes-2hb) must be > 0: for a fabric without friction take law = "
        "linear, "
        "or fabric.b1 = fabric.b2"},
       {{rigidity, no_width}, "fabric.kes-2hb = 0 N (--fabric.kes-2hb) must be > 0: "},
-      {{{"fabric.kes-b", "0"}, width}, "fabric.kes-b = 0 N m (--fabric.kes-b) must be > 0"},
+      {{{"fabric.kes-b", 0}, width}, "fabric.kes-b = 0 N m (--fabric.kes-b) must be > 0"},
       {{rigidity}, "fabric.kes-b = 1e-05 N m (--fabric.kes-b) needs fabric.kes-2hb beside it"},
       {{width}, "fabric.kes-2hb = 0.001 N (--fabric.kes-2hb) needs fabric.kes-b beside it"},
       {{spread}, "fabric.stops-spread = 2 (--fabric.stops-spread) needs fabric.stops-median beside it"},
@@ -153,18 +153,18 @@ TEST(FrictionOfAFabric, OfATesterNamesWhatIsMissing) {
   for (const auto& [flags, message] : cases) EXPECT_TRUE(test::says(said_to(flags), message));
   EXPECT_EQ(said_to({rigidity, width}), "(accepted)");
   EXPECT_EQ(said_to({median, spread, rigidity, width}), "(accepted)");
-  EXPECT_EQ(said_to({median, {"fabric.stops-spread", "0.1"}, rigidity, no_width}), "(accepted)")
+  EXPECT_EQ(said_to({median, {"fabric.stops-spread", 0.1}, rigidity, no_width}), "(accepted)")
       << "a shape of no friction";
 }
 
 TEST(ResolvedScene, ReadBackAsFlagsGivesTheSameScene) {
   Scene original = default_scene("wool-tropical");
-  apply_flags(original, {{"gravity", "0.1 0 -9.81"},
-                         {"step", "3.3e-4"},
-                         {"seed", "4294967295"},
-                         {"fabric.k0", "0.1"},
-                         {"fabric.bending.stops.thresholds", "3, 1e2"},
-                         {"fabric.bending.stops.stiffnesses", "1.1e-6 2e-7"}});
+  apply_flags(original, {{"gravity", Numbers{0.1, 0, -9.81}},
+                         {"step", 3.3e-4},
+                         {"seed", 4294967295},
+                         {"fabric.k0", 0.1},
+                         {"fabric.bending.stops.thresholds", Numbers{3, 1e2}},
+                         {"fabric.bending.stops.stiffnesses", Numbers{1.1e-6, 2e-7}}});
   const Json tree = to_json(original);
   Scene copy = default_scene();
   for (const KeyDescription& key : scene_keys()) {
@@ -189,6 +189,29 @@ TEST(Vectors, MayBeWrittenWithSpacesOrCommas) {
     Scene scene;
     set_key(scene, "gravity", text, "--gravity");
     EXPECT_EQ(scene.gravity, Eigen::Vector3d(0, 0, -9.81)) << text;
+  }
+}
+
+TEST(Values, AreReadBackFromTheirTexts) {
+  const auto key = [](const char* type) {
+    KeyDescription description;
+    description.type = type;
+    return description;
+  };
+  const std::tuple<const char*, Value, const char*> cases[] = {
+      {"flag", false, "false"},
+      {"integer", 4294967295, "4294967295"},
+      {"number", 1.0 / 3, "0.3333333333333333"},
+      {"number", 1e300, "1e+300"},
+      {"vector", Numbers{0, -0.1, 1e-7}, "0 -0.1 1e-07"},
+      {"numbers", Numbers{}, "[]"},
+      {"numbers", Numbers{0.1}, "0.1"},
+      {"text", "1e-5", "1e-5"},
+      {"name=value", "stops=16", "stops=16"},
+  };
+  for (const auto& [type, value, text] : cases) {
+    EXPECT_EQ(value_text(value), text);
+    EXPECT_EQ(parse_text(key(type), text), value) << text;
   }
 }
 

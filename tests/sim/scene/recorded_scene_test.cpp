@@ -18,11 +18,11 @@ using Json = nlohmann::ordered_json;
 // Returns a scene with numbers of its own, stops, a parameter of the law and a switched-off default.
 Scene unusual() {
   Scene scene = test::shipped_scene("strip-over-sphere");
-  apply_flags(scene, {{"fabric.b1", "3.3e-05"},
-                      {"fabric.bending.stops.thresholds", "5 20"},
-                      {"fabric.bending.stops.stiffnesses", "8e-6 0.1"},
-                      {"seed", "7"},
-                      {"gravity", "0 0.1 -3"}});
+  apply_flags(scene, {{"fabric.b1", 3.3e-05},
+                      {"fabric.bending.stops.thresholds", Numbers{5, 20}},
+                      {"fabric.bending.stops.stiffnesses", Numbers{8e-6, 0.1}},
+                      {"seed", 7},
+                      {"gravity", Numbers{0, 0.1, -3}}});
   return scene;
 }
 
@@ -130,17 +130,17 @@ Scene with_all_bits() {
 
 // The same scene by flags, as studies, comparisons and estimates of errors tell it to runs.
 std::vector<Flag> drape_flags(Scene scene) {
-  const auto joined = [](const auto& numbers) {
-    std::string text;
-    for (const double x : numbers) text += (text.empty() ? "" : " ") + number_text(x);
-    return text;
+  // Another process gets texts.
+  const auto told = [](const KeyDescription& key, const Value& value) {
+    return Flag{key.path, parse_text(key, value_text(value))};
   };
   std::vector<Flag> flags;
   for (const BoundKey& key : bind_scene(scene)) {
-    const std::string& path = key.description.path;
-    if (const auto* x = std::get_if<double*>(&key.field)) flags.push_back({path, number_text(**x)});
-    if (const auto* x = std::get_if<Eigen::Vector3d*>(&key.field)) flags.push_back({path, joined(**x)});
-    if (const auto* x = std::get_if<Numbers*>(&key.field)) flags.push_back({path, joined(**x)});
+    const KeyDescription& what = key.description;
+    if (const auto* x = std::get_if<double*>(&key.field)) flags.push_back(told(what, **x));
+    if (const auto* x = std::get_if<Eigen::Vector3d*>(&key.field))
+      flags.push_back(told(what, Numbers((*x)->begin(), (*x)->end())));
+    if (const auto* x = std::get_if<Numbers*>(&key.field)) flags.push_back(told(what, **x));
   }
   return flags;
 }

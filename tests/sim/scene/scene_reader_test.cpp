@@ -13,7 +13,7 @@ TEST(Precedence, FlagsWinOverTheSceneFileAndTheFileOverDefaults) {
   scene.triangles = 1234;
   scene.seconds = 7;
   apply_scene_file(scene, file.path());
-  apply_flags(scene, {{"step", "5e-4"}});
+  apply_flags(scene, {{"step", 5e-4}});
   EXPECT_EQ(scene.triangles, 1234);
   EXPECT_EQ(scene.seconds, 3);
   EXPECT_EQ(scene.step, 5e-4);
@@ -23,7 +23,7 @@ TEST(Precedence, FlagsWinOverTheSceneFileAndTheFileOverDefaults) {
 
 TEST(Precedence, ASingleFabricNumberOverridesTheFabricWhateverTheOrder) {
   Scene scene = default_scene();
-  apply_flags(scene, {{"fabric.k0", "20"}, {"fabric", "wool-tropical"}});
+  apply_flags(scene, {{"fabric.k0", 20}, {"fabric", "wool-tropical"}});
   EXPECT_EQ(scene.fabric.name, "wool-tropical");
   EXPECT_EQ(scene.fabric.k0, 20);
   EXPECT_EQ(scene.fabric.density, 0.1629);
@@ -110,7 +110,7 @@ TEST(SceneFile, TakesIntegersWithAnExponent) {
   Scene scene = scene_of("triangles = 1e3\nseed = 7.0\n");
   EXPECT_EQ(scene.triangles, 1000);
   EXPECT_EQ(scene.seed, 7u);
-  apply_flags(scene, {{"triangles", "2.5e3"}, {"seed", "1e1"}});
+  apply_flags(scene, {{"triangles", 2.5e3}, {"seed", 1e1}});
   EXPECT_EQ(scene.triangles, 2500);
   EXPECT_EQ(scene.seed, 10u);
 }
@@ -130,13 +130,13 @@ TEST(SceneFile, SetsAnExperimentsOwnKeysToo) {
   Scene scene = default_scene();
   apply_scene_file(scene, file.path(), own);
   EXPECT_EQ(frames_per_second, 25);
-  apply_flags(scene, {{"fps", "50"}}, own);
+  apply_flags(scene, {{"fps", 50}}, own);
   EXPECT_EQ(frames_per_second, 50);
 }
 
 TEST(LinearFabric, NeedsNoElasticLimit) {
   Scene scene = default_scene();
-  apply_flags(scene, {{"fabric.b1", "1e-5"}, {"fabric.b2", "1e-5"}, {"fabric.k0", "0"}});
+  apply_flags(scene, {{"fabric.b1", 1e-5}, {"fabric.b2", 1e-5}, {"fabric.k0", 0}});
   EXPECT_NO_THROW(check_scene(scene));
 }
 

@@ -15,11 +15,10 @@ TEST(SpringBackExample, FindsTheResidualCurvatureOfTheClosedForm) {
   constexpr double kRounding = 1e-9;
   const Folder folder;
   const auto out = folder.path() / "s";
-  const CommandLine line{
-      "spring-back",
-      "hysteron spring-back",
-      {{"law", "bilinear"}, {"curvature", "150"}, {"out", out.string()}, {"quiet", "true"}},
-      {}};
+  const CommandLine line{"spring-back",
+                         "hysteron spring-back",
+                         {{"law", "bilinear"}, {"curvature", 150}, {"out", out.string()}, {"quiet", true}},
+                         {}};
   ASSERT_EQ(spring_back().run(line), 0);
   const VirginCurve curve = read_fabric(Fabric{}.name, "test").fabric.virgin_curve();
   const double moment = curve.friction_moment() + curve.b2 * 150;  // beyond K0, on the straight line

@@ -10,8 +10,6 @@
 namespace hysteron::experiments {
 namespace {
 
-using Numbers = std::vector<double>;
-
 Numbers numbers_in_text(std::string text) {
   for (char& c : text)
     if (c == '(' || c == ')' || c == '[' || c == ']' || c == ',') c = ' ';

@@ -18,7 +18,7 @@ std::optional<CommandLine> parsed(std::vector<const char*> words) {
 
 std::string text_of_flag(const CommandLine& line, const std::string& path) {
   for (const Flag& flag : line.flags) {
-    if (flag.path == path) return flag.text;
+    if (flag.path == path) return flag.text();
   }
   return "(none)";
 }
@@ -43,7 +43,7 @@ TEST(CommandLine, TakesABareFlagBack) {
 
 TEST(CommandLine, TakesNegativeNumbersAndVectorsAsOneWord) {
   const auto line = parsed({"drape", "--fabric.coupling", "-3e1", "--gravity", "-1 0 -9.81"});
-  EXPECT_EQ(text_of_flag(*line, "fabric.coupling"), "-3e1");
+  EXPECT_EQ(text_of_flag(*line, "fabric.coupling"), "-30");
   EXPECT_EQ(text_of_flag(*line, "gravity"), "-1 0 -9.81");
 }
 
@@ -52,11 +52,33 @@ TEST(CommandLine, KeepsEveryParameterAndTheLastOfAnyOtherFlag) {
       parsed({"drape", "--param", "memory=stops", "--step", "1", "--param", "stops=16", "--step", "2"});
   std::vector<std::string> parameters, steps;
   for (const Flag& flag : line->flags) {
-    if (flag.path == "param") parameters.push_back(flag.text);
-    if (flag.path == "step") steps.push_back(flag.text);
+    if (flag.path == "param") parameters.push_back(flag.text());
+    if (flag.path == "step") steps.push_back(flag.text());
   }
   EXPECT_EQ(parameters, (std::vector<std::string>{"memory=stops", "stops=16"}));
   EXPECT_EQ(steps, std::vector<std::string>{"2"});
+}
+
+TEST(CommandLine, HoldsValuesOfTheirKeysTypes) {
+  const auto line = parsed({"drape", "--fabric.b2", "1e-5", "--gravity", "0,0,-1", "--seed", "7", "--quick",
+                            "--fabric.bending.stops.thresholds", "5", "--step", "long"});
+  const auto value = [&](const std::string& path) {
+    return std::ranges::find(line->flags, path, &Flag::path)->value;
+  };
+  EXPECT_EQ(value("fabric.b2"), Value(1e-5));
+  EXPECT_EQ(value("gravity"), Value(Numbers{0, 0, -1}));
+  EXPECT_EQ(value("seed"), Value(7));
+  EXPECT_EQ(value("quick"), Value(true));
+  EXPECT_EQ(value("fabric.bending.stops.thresholds"), Value(Numbers{5}));
+  EXPECT_EQ(value("step"), Value("long")) << "which is refused where it is set";
+}
+
+TEST(ParsedFlag, HasTheTypeThatTheExperimentsKeyHas) {
+  EXPECT_EQ(parsed_flag("drape", "drape.disc", "8e-2"), (Flag{"drape.disc", 0.08}));
+  EXPECT_EQ(parsed_flag("drape", "fabric.b2", "1e-5"), (Flag{"fabric.b2", 1e-5}));
+  EXPECT_EQ(parsed_flag("drape", "fabric", "12"), (Flag{"fabric", "12"})) << "a file's name";
+  EXPECT_EQ(parsed_flag("law", "b2", "1e-5"), (Flag{"b2", 1e-5}));
+  EXPECT_EQ(parsed_flag("law", "starch", "5"), (Flag{"starch", "5"})) << "which no key is";
 }
 
 TEST(CommandLine, TakesBareFlagsAsTrue) {

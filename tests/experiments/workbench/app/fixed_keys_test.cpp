@@ -18,12 +18,12 @@ std::string refusal(const std::string& experiment, const Flag& flag) {
 
 TEST(DecidedKeys, AreRefusedByName) {
   EXPECT_EQ(
-      refusal("drape", {"cloth.position", "1 0 0"}),
+      refusal("drape", {"cloth.position", Numbers{1, 0, 0}}),
       "--cloth.position 1 0 0: drape sets cloth.position itself: the specimen lies in the middle of the "
       "pedestal");
   EXPECT_EQ(refusal("fold", {"cloth.shape", "disc"}),
             "--cloth.shape disc: fold sets cloth.shape itself: the specimen is a strip");
-  EXPECT_EQ(refusal("cantilever", {"seconds", "9"}),
+  EXPECT_EQ(refusal("cantilever", {"seconds", 9}),
             "--seconds 9: cantilever sets seconds itself: the weight grows in ramp and goes in unload");
   EXPECT_EQ(refusal("crease", {"mesh", "random"}),
             "--mesh random: crease does not use mesh: its mesh has its finest columns along the crease");

@@ -25,7 +25,7 @@ class GpuChoice : public testing::Test {
     return text ? std::optional<std::string>(text) : std::nullopt;
   }
   static CommandLine on(const std::string& device) {
-    return {"swing", "hysteron swing", {{"seconds", "1"}, {"device", device}}, {}};
+    return {"swing", "hysteron swing", {{"seconds", 1}, {"device", device}}, {}};
   }
 
  private:
@@ -38,7 +38,7 @@ TEST_F(GpuChoice, LeavesTheChosenOneOfThoseThatAreAllowed) {
     allow(gpus);
     CommandLine line = on("cuda:1");
     choose_gpu(line, 2, true);
-    EXPECT_EQ(line.flags[1].text, "cuda");
+    EXPECT_EQ(line.flags[1].text(), "cuda");
     EXPECT_EQ(line.command, "hysteron swing");
     EXPECT_EQ(allowed(), seen);
   }
@@ -49,7 +49,7 @@ TEST_F(GpuChoice, ChangesNothingWhereNoneIsNamed) {
     allow("2");
     CommandLine line = on(device);
     choose_gpu(line);
-    EXPECT_EQ(line.flags[1].text, device);
+    EXPECT_EQ(line.flags[1].text(), device);
     EXPECT_EQ(allowed(), "2");
   }
 }
@@ -82,7 +82,7 @@ TEST_F(GpuChoice, IsLeftToWhoSimulatesInAProgramWithoutCuda) {
   allow("4");
   CommandLine line = on("cuda:3");
   choose_gpu(line, 0, false);
-  EXPECT_EQ(line.flags[1].text, "cuda");
+  EXPECT_EQ(line.flags[1].text(), "cuda");
   EXPECT_EQ(allowed(), "4");
 }
 

@@ -60,85 +60,81 @@ TEST(KeyConditions, RefuseFlagsThatNothingReadsWithWhatWouldReadThem) {
     const char* message;
   } cases[] = {
       {"crease",
-       {{"crease.radius", "0.02"}},
+       {{"crease.radius", 0.02}},
        "--crease.radius 0.02 is not used: crease.radius needs --crease.fold rod (crease.fold = plate)"},
       {"crease",
-       {{"crease.fold", "rod"}, {"crease.pleat", "40"}},
+       {{"crease.fold", "rod"}, {"crease.pleat", 40}},
        "--crease.pleat 40 is not used: crease.pleat needs --crease.fold pleat (crease.fold = rod)"},
-      {"crease",
-       {{"seed", "3"}},
-       "--seed 3: crease does not use seed: no part of its mesh is drawn at random"},
+      {"crease", {{"seed", 3}}, "--seed 3: crease does not use seed: no part of its mesh is drawn at random"},
       {"fold",
-       {{"fold.curvature", "90"}},
+       {{"fold.curvature", 90}},
        "--fold.curvature 90 is not used: fold.curvature needs --fold.law-alone (no --fold.law-alone)"},
       {"fold",
-       {{"fold.law-alone", "true"}, {"triangles", "90"}},
+       {{"fold.law-alone", true}, {"triangles", 90}},
        "--triangles 90 is not used: triangles needs no --fold.law-alone (fold.law-alone = true)"},
       {"fold",
-       {{"law", "linear"}, {"fold.fatigue", "3"}},
+       {{"law", "linear"}, {"fold.fatigue", 3}},
        "--fold.fatigue 3 is not used: law linear knows no fatigue"},
       {"drape",
-       {{"drape.shakes", "3"}},
+       {{"drape.shakes", 3}},
        "--drape.shakes 3 is not used: drape.shakes needs --drape.release shaken (drape.release = lowered)"},
       {"drape",
-       {{"renderer", "osmesa"}, {"no-images", "true"}},
+       {{"renderer", "osmesa"}, {"no-images", true}},
        "--renderer osmesa is not used: renderer needs no --no-images (no-images = true)"},
       {"kes",
-       {{"on", "strip"}, {"renderer", "osmesa"}, {"no-images", "true"}},
+       {{"on", "strip"}, {"renderer", "osmesa"}, {"no-images", true}},
        "--renderer osmesa is not used: renderer needs --test bending and --on strip and no --no-images "
        "(no-images = true)"},
       {"drape",
-       {{"errors.draws", "3"}},
+       {{"errors.draws", 3}},
        "--errors.draws 3 is not used: errors.draws needs --errors (no --errors)"},
       {"drape",
-       {{"substeps", "30"}},
+       {{"substeps", 30}},
        "--substeps 30 is not used: substeps needs --integrator semi-implicit or explicit (integrator = "
        "tr-bdf2)"},
       {"drape",
-       {{"mesh", "unionjack"}, {"seed", "3"}},
+       {{"mesh", "unionjack"}, {"seed", 3}},
        "--seed 3 is not used: seed needs --mesh random, --cloth.copy-turn or --cloth.copy-scatter (mesh = "
        "unionjack, no --cloth.copy-turn, no --cloth.copy-scatter)"},
       {"kes",
        {{"test", "shear"}, {"law", "kim"}},
        "--law kim is not used: law needs --test bending (test = shear)"},
       {"kes",
-       {{"test", "shear"}, {"fabric.b1", "1e-5"}},
-       "--fabric.b1 1e-5 is not used: fabric.b1 needs --test bending (test = shear)"},
+       {{"test", "shear"}, {"fabric.b1", 1e-5}},
+       "--fabric.b1 1e-05 is not used: fabric.b1 needs --test bending (test = shear)"},
       {"kes", {{"mesh", "random"}}, "--mesh random is not used: mesh needs --on strip (on = law)"},
       {"kes",
-       {{"rate", "5"}},
+       {{"rate", 5}},
        "--rate 5 is not used: rate needs a law that takes time: --law chapman, gong, kim, terzopoulos or all "
        "(law = prandtl)"},
       {"kes",
-       {{"rate", "5"}, {"law", "linear,chapman"}},
+       {{"rate", 5}, {"law", "linear,chapman"}},
        "--rate 5 is not used: law linear, chapman takes no time, fabric cotton-broad having no branches that "
        "relax (fabric.bending.branches)"},
       {"fold",
-       {{"fold.law-alone", "true"}, {"fold.period", "3"}},
+       {{"fold.law-alone", true}, {"fold.period", 3}},
        "--fold.period 3 is not used: fold.period needs cloth, or a law that takes time: --law chapman, gong, "
        "kim or terzopoulos (fold.law-alone = true, law = prandtl)"},
       {"fab", {{"units", "fab"}}, "--units fab is not used: units needs --fab.data (no --fab.data)"},
       {"fab",
-       {{"fab.test", "S1"}, {"fab.slack", "0.001"}},
+       {{"fab.test", "S1"}, {"fab.slack", 0.001}},
        "--fab.slack 0.001 is not used: fab.slack needs a test that bends (fab.test = S1)"},
-      {"bench", {{"budget", "9"}}, "--budget 9 is not used: budget needs --sizes (no --sizes)"},
+      {"bench", {{"budget", 9}}, "--budget 9 is not used: budget needs --sizes (no --sizes)"},
       {"validate",
-       {{"parts", "figure"}, {"samples", "9"}},
+       {{"parts", "figure"}, {"samples", 9}},
        "--samples 9 is not used: samples needs --parts spread (parts = figure)"},
       {"fit",
-       {{"kes.b", "1e-5"}, {"kes.2hb", "1e-3"}, {"ripple", "0.1"}},
+       {{"kes.b", 1e-5}, {"kes.2hb", 1e-3}, {"ripple", 0.1}},
        "--ripple 0.1 is not used: ripple needs --loop (no --loop)"},
       {"fit",
-       {{"virgin.b1", "1e-5"}, {"virgin.c1", "-1e-7"}, {"kes.k0", "30"}},
+       {{"virgin.b1", 1e-5}, {"virgin.c1", -1e-7}, {"kes.k0", 30}},
        "--kes.k0 30 is not used: kes.k0 needs --kes.2hb (no --kes.2hb)"},
       {"fit",
        {{"decay", "d.csv"}, {"units", "kes"}},
        "--units kes is not used: units needs --loop, or --fab (no --loop, no --fab)"},
+      {"fit", {{"fab", "f.csv"}, {"offset", true}}, "--offset is not used: offset needs --loop (no --loop)"},
       {"fit",
-       {{"fab", "f.csv"}, {"offset", "true"}},
-       "--offset is not used: offset needs --loop (no --loop)"},
-      {"fit",
-       {{"loop", "f.csv"}, {"fab.noise", "0.1"}},
+       {{"loop", "f.csv"}, {"fab.noise", 0.1}},
        "--fab.noise 0.1 is not used: fab.noise needs --fab (no --fab)"}};
   for (const auto& [experiment, flags, message] : cases) EXPECT_EQ(said_to(experiment, flags), message);
 }
@@ -166,8 +162,7 @@ TEST(KeyConditions, RefuseKeysOfABuiltMeshBesideOneOfAFile) {
   const std::string mesh = folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   for (const char* key : {"triangles", "seed", "cloth.length", "cloth.radius", "cloth.texture-scale"})
     EXPECT_TRUE(
-        said_to("run",
-                {{"scene", "hanging-square"}, {"cloth.shape", "file"}, {"cloth.file", mesh}, {key, "2"}})
+        said_to("run", {{"scene", "hanging-square"}, {"cloth.shape", "file"}, {"cloth.file", mesh}, {key, 2}})
             .starts_with("--" + std::string(key) + " 2 is not used: "))
         << key;
 }
@@ -187,7 +182,7 @@ TEST(KeyConditions, CountADefaultAsGivenAndAnEmptyTextOrFalseNot) {
 
 TEST(KeyConditions, LeaveToEachOfSeveralRunsWhatDependsOnTheirDifference) {
   const KeyValues values = {{"integrator", "implicit"}, {"self-contact", false}};
-  CommandLine line = line_with("crumple", {{"substeps", "20"}});
+  CommandLine line = line_with("crumple", {{"substeps", 20}});
   EXPECT_THROW(refuse_unread_flags(line, values), Error);
   line.listed = {"integrator"};
   EXPECT_NO_THROW(refuse_unread_flags(line, values));
@@ -197,19 +192,18 @@ TEST(KeyConditions, LeaveToEachOfSeveralRunsWhatDependsOnTheirDifference) {
 TEST(KeyConditions, OfADrapeAreThoseOfItsStandard) {
   finished("drape --drape.standard jis --drape.shakes 2 --triangles 100 --explain");
   EXPECT_TRUE(says(refused("drape --drape.standard jis --drape.folds 2"), "(drape.release = shaken)"));
-  const CommandLine line = line_with("drape", {{"drape.lowering", "1"}, {"drape.disc", "0.08"}});
-  EXPECT_EQ(without_unread_flags(line, "drape.release", "dropped"),
-            (std::vector<Flag>{{"drape.disc", "0.08"}}));
+  const CommandLine line = line_with("drape", {{"drape.lowering", 1}, {"drape.disc", 0.08}});
+  EXPECT_EQ(without_unread_flags(line, {"drape.release", "dropped"}),
+            (std::vector<Flag>{{"drape.disc", 0.08}}));
 }
 
 // How pictures look may be said where none are drawn, what draws them may not; a repetition without pictures
 // leaves it out.
 TEST(KeyConditions, LeaveTheLookOfPicturesBesideNoImages) {
   const Flag size = {"size", "160x120"}, renderer = {"renderer", "osmesa"};
-  const CommandLine line =
-      line_with("drape", {size, {"quality", "draft"}, {"fps", "5"}, {"no-images", "true"}});
+  const CommandLine line = line_with("drape", {size, {"quality", "draft"}, {"fps", 5}, {"no-images", true}});
   EXPECT_NO_THROW(refuse_unread_flags(line, {{"no-images", true}}));
-  EXPECT_EQ(without_unread_flags(line_with("drape", {size, renderer}), "no-images", "true"),
+  EXPECT_EQ(without_unread_flags(line_with("drape", {size, renderer}), {"no-images", true}),
             (std::vector<Flag>{size}));
 }
 

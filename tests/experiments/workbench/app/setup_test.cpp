@@ -23,7 +23,7 @@ TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {
   const Field field = &starch;
   const Keys own = {{describe("starch", field, "g", positive(), "the experiment's own key"), field}};
   const auto setup =
-      set_up(drape_with({{"triangles", "20"}, {"scene", file}, {"size", "64x48"}}), defaults, own);
+      set_up(drape_with({{"triangles", 20}, {"scene", file}, {"size", "64x48"}}), defaults, own);
   EXPECT_EQ(setup.scene.triangles, 20);
   EXPECT_EQ(setup.scene.seconds, 2);
   EXPECT_EQ(setup.scene.step, 5e-4);
@@ -47,16 +47,16 @@ TEST(Setup, PutsFlagsOverQuickOverTheSceneFile) {
     setup.options.fps = std::min(setup.options.fps, 10.0);
     starch = std::min(starch, 2.0);
   };
-  const std::vector<Flag> flags = {{"scene", file}, {"triangles", "300"}, {"fps", "30"}};
+  const std::vector<Flag> flags = {{"scene", file}, {"triangles", 300}, {"fps", 30}};
   std::vector<Flag> quick_flags = flags;
-  quick_flags.push_back({"quick", "true"});
+  quick_flags.push_back({"quick", true});
   const auto small = set_up(drape_with(quick_flags), {default_scene(), {}}, own, quick);
   EXPECT_EQ(small.scene.triangles, 300);
   EXPECT_EQ(small.scene.seconds, 1);
   EXPECT_EQ(small.options.fps, 30);
   EXPECT_EQ(starch, 2);
   EXPECT_EQ(set_up(drape_with(flags), {default_scene(), {}}, own, quick).scene.seconds, 9);
-  quick_flags.push_back({"starch", "5"});
+  quick_flags.push_back({"starch", 5});
   set_up(drape_with(quick_flags), {default_scene(), {}}, own, quick);
   EXPECT_EQ(starch, 5);
 }
@@ -69,18 +69,18 @@ TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
   for (int i = 0; const char* path : {"quick", "work", "steps"})
     keys.push_back({describe(path, fields[i], "", any(), ""), fields[i]}), ++i;
   const auto quick = [&] { work = steps = 1; };
-  set_keys(drape_with({{"steps", "5"}}), keys, quick);
+  set_keys(drape_with({{"steps", 5}}), keys, quick);
   EXPECT_EQ(work, 9);
-  set_keys(drape_with({{"quick", "true"}, {"steps", "5"}}), keys, quick);
+  set_keys(drape_with({{"quick", true}, {"steps", 5}}), keys, quick);
   EXPECT_EQ(work, 1);
   EXPECT_EQ(steps, 5);
 }
 
 TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
-  EXPECT_EQ(setup_error({{"fps", "-1"}}), "fps = -1 1/s must be in [0, 10000] (--fps)");
+  EXPECT_EQ(setup_error({{"fps", -1}}), "fps = -1 1/s must be in [0, 10000] (--fps)");
   EXPECT_TRUE(says(setup_error({{"renderer", "vulkan"}}), "auto | egl | osmesa"));
   EXPECT_TRUE(says(setup_error({{"export", "stl"}}), "none | ply | obj | vtk | pc2 | usd | glb"));
-  EXPECT_TRUE(says(setup_error({{"camera.direction", "0 0 0"}}), "must not be zero"));
+  EXPECT_TRUE(says(setup_error({{"camera.direction", Numbers{0, 0, 0}}}), "must not be zero"));
 }
 
 TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
@@ -92,7 +92,7 @@ TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
 
 TEST(Setup, ChecksTheSceneAsAWhole) {
   EXPECT_TRUE(
-      says(setup_error({{"fabric.b1", "1e-9"}}), "fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"));
+      says(setup_error({{"fabric.b1", 1e-9}}), "fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"));
 }
 
 // Returns the values of a dumped scene, without the comments, which tell where each value comes from.

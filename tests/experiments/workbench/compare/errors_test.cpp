@@ -26,7 +26,7 @@ std::string words(const std::vector<ErrorRun>& error_runs) {
   std::string text;
   for (const ErrorRun& error_run : error_runs) {
     text += (text.empty() ? "" : "; ") + error_run.name + ":";
-    for (const Flag& flag : error_run.changes) text += " " + flag.path + "=" + flag.text;
+    for (const Flag& flag : error_run.changes) text += " " + flag.path + "=" + flag.text();
   }
   return text;
 }
@@ -93,7 +93,7 @@ TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
 }
 
 ErrorRunResult bent(const std::string& name, double length) {
-  return {{name, {{"seed", "2"}}}, {{"bending_length_m", length}}};
+  return {{name, {{"seed", 2}}}, {{"bending_length_m", length}}};
 }
 
 TEST(Repeats, OfEquilibriaHaveNoStep) {

@@ -8,7 +8,7 @@ namespace {
 
 ChildRun column(const std::vector<Flag>& flags) {
   ChildRun result{"", {"swing", "", flags, {}}, "out"};
-  result.line.flags.push_back({"no-images", "true"});
+  result.line.flags.push_back({"no-images", true});
   return result;
 }
 
@@ -23,8 +23,8 @@ TEST(Chunks, HaveColumnsInTheirOrderAndNoMoreThanIsAsked) {
 // A process sees the GPUs that its first line leaves, and keeps signals for all of its runs.
 TEST(Chunks, AreOfOneDeviceAndOfOneKindOfEndBySignals) {
   const std::vector<ChildRun> columns = {column({{"device", "cuda:0"}}), column({{"device", "cuda:1"}}),
-                                         column({{"device", "cuda:0"}}), column({{"checkpoint", "60"}}),
-                                         column({{"device", "cuda:1"}}), column({{"checkpoint", "30"}})};
+                                         column({{"device", "cuda:0"}}), column({{"checkpoint", 60}}),
+                                         column({{"device", "cuda:1"}}), column({{"checkpoint", 30}})};
   EXPECT_EQ(batch_chunks(columns, 8, -1), (std::vector<Chunk>{{0, 2}, {1, 4}, {3, 5}}));
 }
 
@@ -39,7 +39,7 @@ TEST(Chunks, AreOfRunsWithoutPicturesThatStepACloth) {
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of kes (--batch)");
   other.line.experiment = "bench";
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of bench (--batch)");
-  EXPECT_TRUE(says(refusal(column({{"errors", "true"}})), "errors.batch"));
+  EXPECT_TRUE(says(refusal(column({{"errors", true}})), "errors.batch"));
   ChildRun drawn = column({});
   drawn.line.flags.clear();
   EXPECT_TRUE(says(refusal(drawn), "no-images"));
