@@ -224,7 +224,7 @@ class PageTable {
     if (page_.curvature) {
       const std::optional<double> rms = instants(columns_[c]).at(frame).difference_rms;
       return {crop.of(render::read_png(picture_file(columns_[c], kDifference, frame))),
-              rms ? fmt::format("rms {:.3g} /m", *rms) : sheet_.columns[to].name + " has no such instant",
+              rms ? fmt::format("rms {:.3g} /m", *rms) : "no such instant",
               {}};
     }
     const render::Image image = crop.of(picture_at(columns_[c], time)),
