@@ -9,6 +9,7 @@
 // row for each specimen.  Each laboratory has its own quantities (kes_sheet.h, fast_sheet.h).
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -37,10 +38,10 @@ struct SheetQuantity {
 
 // One quantity in SI: N m, N, N/m (for an angle: per radian), J/m^2, m, kg/m^2, ratios for percentages.
 struct SheetRow {
-  double value[3] = {kNone, kNone, kNone};  // by SheetColumn; the mean of repeats
-  std::string unit;                         // as printed
-  std::string place;                        // "sheet.csv:4"
-  std::vector<double> repeats[3] = {};      // by SheetColumn: each specimen's
+  std::array<double, 3> value = {kNone, kNone, kNone};  // by SheetColumn; the mean of repeats
+  std::string unit;                                     // as printed
+  std::string place;                                    // "sheet.csv:4"
+  std::array<std::vector<double>, 3> repeats = {};      // by SheetColumn: each specimen's
 
   bool has(SheetColumn column) const;
   // Returns the value along warp or weft: its own, else the mean; kNone if neither is there.
