@@ -7,8 +7,7 @@
 
 namespace hysteron::experiments {
 
-// Returns "elastic" if nothing is kept, "plastic" for a rest curvature beyond a yield, "hysteretic" for
-// friction, and "" for an unknown law.
+// Returns the name of the law's family (LawFamily), "hysteretic"; "" for an unknown law.
 std::string family_of_law(const std::string& law);
 // Returns the law's colour, the same on every page and different for all laws; grey for an unknown law.
 render::Rgb8 color_of_law(const std::string& law);

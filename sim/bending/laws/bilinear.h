@@ -21,6 +21,7 @@ PrandtlStops<Real, D, 1> make_bilinear(const VirginCurve& curve) {
 struct BilinearLaw {
   static constexpr const char* kName = "bilinear";
   static constexpr const char* kMeaning = "one stop at K0 beside b2 (Anandjiwala & Leaf 1991)";
+  static constexpr LawFamily kFamily = LawFamily::hysteretic;
   static constexpr bool kFrictionBesideB2 = true;
   static std::vector<LawParameter> parameters() { return law_parameter::with_fatigue({}); }
 

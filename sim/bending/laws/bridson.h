@@ -45,6 +45,7 @@ struct Bridson : RadialElastic<Bridson<Real, D>, Real, D> {
 struct BridsonLaw {
   static constexpr const char* kName = "bridson";
   static constexpr const char* kMeaning = "(2 b2/h) sin(K h/2), no memory (Bridson et al. 2003)";
+  static constexpr LawFamily kFamily = LawFamily::elastic;
   static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
 
   template <class Real, int D>

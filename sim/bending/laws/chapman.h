@@ -13,6 +13,7 @@ struct ChapmanLaw {
   static constexpr const char* kName = "chapman";
   static constexpr const char* kMeaning =
       "elastic, friction and relaxing branches: wrinkles recover in time (after Chapman 1975)";
+  static constexpr LawFamily kFamily = LawFamily::hysteretic;
   static constexpr bool kFrictionBesideB2 = true;
   static std::vector<LawParameter> parameters() { return {law_parameter::stops()}; }
 

@@ -107,6 +107,7 @@ struct Dahl {
 struct DahlLaw {
   static constexpr const char* kName = "dahl";
   static constexpr const char* kMeaning = "friction that relaxes exponentially to M0 (Miguel et al. 2013)";
+  static constexpr LawFamily kFamily = LawFamily::hysteretic;
   static constexpr bool kFrictionBesideB2 = true;
 
   template <class Real, int D>

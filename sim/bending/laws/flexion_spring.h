@@ -47,6 +47,7 @@ struct FlexionSpringLaw {
   static constexpr const char* kName = "spring";
   static constexpr const char* kMeaning =
       "flexion springs across the hinge, matched to b2 K at K0 (mass-spring model)";
+  static constexpr LawFamily kFamily = LawFamily::elastic;
   static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
   static void check(const LawParams& c, LawUse) {
     // When folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000

@@ -132,6 +132,7 @@ struct GongLaw {
   static constexpr const char* kName = "gong";
   static constexpr const char* kMeaning =
       "friction anchor and plastic rest curvature with hold time (Gong et al. 2025)";
+  static constexpr LawFamily kFamily = LawFamily::hysteretic;
   static std::vector<LawParameter> parameters() { return {law_parameter::yield(), law_parameter::tau()}; }
   static void set_defaults(LawParams& c) { c.tau = 30; }  // hold time [s], theirs
 

@@ -46,6 +46,7 @@ struct GrinspunEdit {
 struct GrinspunEditLaw {
   static constexpr const char* kName = "grinspun-edit";
   static constexpr const char* kMeaning = "rest curvature set on command (Grinspun et al. 2003)";
+  static constexpr LawFamily kFamily = LawFamily::plastic;
 
   template <class Real, int D>
   static GrinspunEdit<Real, D> make(const LawParams& c) {

@@ -92,6 +92,7 @@ struct KimLaw {
   static constexpr const char* kName = "kim";
   static constexpr const char* kMeaning =
       "rest curvature creeps above a threshold, with loss of stiffness (Kim et al. 2011)";
+  static constexpr LawFamily kFamily = LawFamily::plastic;
   static std::vector<LawParameter> parameters() {
     return {law_parameter::yield(), law_parameter::max_set(), law_parameter::weakening(),
             law_parameter::tau()};

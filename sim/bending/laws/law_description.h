@@ -4,6 +4,7 @@
 //   struct SomeLaw {
 //     static constexpr const char* kName = ...;     // of the law in scenes and flags
 //     static constexpr const char* kMeaning = ...;  // one line
+//     static constexpr LawFamily kFamily = ...;     // by which pages order and colour it
 //     template <class Real, int D>                  // D components, or a scalar law whatever D is
 //     static Some<Real, D> make(const LawParams&);
 //   };
@@ -52,6 +53,7 @@ struct LawList {};
 template <class Law>
 concept LawDescription = requires {
   std::string(Law::kName) + Law::kMeaning;
+  LawFamily(Law::kFamily);
 };
 
 // The text of a parameter, from which a number is read; Error::invalid_input refuses what is not allowed.
@@ -84,6 +86,7 @@ std::string shown(double x);
 template <LawDescription Law>
 LawEntry law_entry() {
   LawEntry entry{Law::kName, Law::kMeaning};
+  entry.family = Law::kFamily;
   if constexpr (requires { Law::kFrictionBesideB2; }) entry.has_friction_beside_b2 = Law::kFrictionBesideB2;
   if constexpr (requires { Law::kHasFaces; }) entry.has_faces = Law::kHasFaces;
   if constexpr (requires { Law::parameters(); }) entry.parameters = Law::parameters();

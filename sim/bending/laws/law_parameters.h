@@ -1,6 +1,7 @@
 // A law with all its parameters, which are read from names and texts as scene files and flags give them.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -53,6 +54,14 @@ struct LawParameter {
   void (*read)(const ParameterText&, LawParams&);
 };
 
+// A law is grouped by what it keeps of a bend.
+enum class LawFamily {
+  elastic,     // nothing
+  plastic,     // a rest curvature, beyond a yield
+  hysteretic,  // what friction holds
+};
+constexpr std::array<const char*, 3> names(LawFamily) { return {"elastic", "plastic", "hysteretic"}; }
+
 // The description that a law's header gives (law_description.h).
 struct LawEntry {
   std::string name;
@@ -62,6 +71,7 @@ struct LawEntry {
   bool has_faces = false;               // follows another B and 2HB for bends with K < 0
   void (*set_defaults)(LawParams&) = nullptr;
   void (*check)(const LawParams&, LawUse) = nullptr;
+  LawFamily family = LawFamily::elastic;
 };
 
 // Chooses a law and checks every value.  Throws Error::invalid_input, naming the law and the parameter, for

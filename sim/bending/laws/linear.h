@@ -26,6 +26,7 @@ struct Linear : RadialElastic<Linear<Real, D>, Real, D> {
 struct LinearLaw {
   static constexpr const char* kName = "linear";
   static constexpr const char* kMeaning = "M = b2 K, no memory (Baraff & Witkin 1998)";
+  static constexpr LawFamily kFamily = LawFamily::elastic;
   static constexpr bool kHasFaces = true;
 
   template <class Real, int D>

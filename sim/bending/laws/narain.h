@@ -60,6 +60,7 @@ struct Narain {
 struct NarainLaw {
   static constexpr const char* kName = "narain";
   static constexpr const char* kMeaning = "plastic rest curvature with weakening (Narain et al. 2013)";
+  static constexpr LawFamily kFamily = LawFamily::plastic;
   static std::vector<LawParameter> parameters() {
     return {law_parameter::yield(), law_parameter::max_set(), law_parameter::weakening()};
   }

@@ -60,6 +60,7 @@ struct ObrienLaw {
   static constexpr const char* kName = "obrien";
   static constexpr const char* kMeaning =
       "plastic rest curvature above a yield curvature (O'Brien et al. 2002)";
+  static constexpr LawFamily kFamily = LawFamily::plastic;
   static std::vector<LawParameter> parameters() { return {law_parameter::yield(), law_parameter::max_set()}; }
   // A bounded set has a scalar form only.
   static bool runs_along_directions(const LawParams& c) { return std::isfinite(c.max_set); }

@@ -42,6 +42,7 @@ struct PabstLaw {
   static constexpr const char* kName = "pabst";
   static constexpr const char* kMeaning =
       "virgin curve without memory (Pabst et al. 2008, Breen et al. 1992)";
+  static constexpr LawFamily kFamily = LawFamily::elastic;
   static constexpr bool kFrictionBesideB2 = true;
 
   template <class Real, int D>

@@ -15,6 +15,7 @@ struct PrandtlLaw {
   static constexpr const char* kName = "prandtl";
   static constexpr const char* kMeaning =
       "quadratic loop, all reversals remembered (Prandtl-Ishlinskii; Iwan 1966)";
+  static constexpr LawFamily kFamily = LawFamily::hysteretic;
   static constexpr bool kFrictionBesideB2 = true, kHasFaces = true;
   static std::vector<LawParameter> parameters() {
     return law_parameter::with_fatigue(

@@ -72,6 +72,7 @@ struct TerzopoulosLaw {
   static constexpr const char* kName = "terzopoulos";
   static constexpr const char* kMeaning =
       "viscoplastic rest curvature above a yield moment (Terzopoulos & Fleischer 1988)";
+  static constexpr LawFamily kFamily = LawFamily::plastic;
   static std::vector<LawParameter> parameters() { return {law_parameter::tau()}; }
 
   template <class Real, int D>

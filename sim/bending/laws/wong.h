@@ -139,6 +139,7 @@ struct WongLaw {
   static constexpr const char* kName = "wong";
   static constexpr const char* kMeaning =
       "quadratic loop, last reversal remembered (Wong, Eqs. 4.2, 4.4, 4.5)";
+  static constexpr LawFamily kFamily = LawFamily::hysteretic;
   static constexpr bool kFrictionBesideB2 = true;
   static std::vector<LawParameter> parameters() {
     return law_parameter::with_fatigue({{"recovery", [](const ParameterText& t, LawParams& c) {

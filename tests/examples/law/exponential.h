@@ -46,6 +46,7 @@ struct Exponential : RadialElastic<Exponential<Real, D>, Real, D> {
 struct ExponentialLaw {
   static constexpr const char* kName = "exponential";
   static constexpr const char* kMeaning = "softens exponentially from b1 to b2, no memory (an example)";
+  static constexpr LawFamily kFamily = LawFamily::elastic;
   static std::vector<LawParameter> parameters() {
     return {{"softness", [](const ParameterText& t, LawParams& c) { c.own["softness"] = t.positive(""); }}};
   }
