@@ -65,7 +65,10 @@ std::string readable(double value, const std::string& unit) {
 }
 
 // Returns the law of a column, or "" if its manifest is missing.
-std::string column_law(const ChildRun& column) { return column.manifest ? column.manifest->text("law") : ""; }
+// Returns the law that the column was asked for, if it was refused.
+std::string column_law(const ChildRun& column) {
+  return column.manifest ? column.manifest->text("law") : last_text(column.line.flags, "law", "");
+}
 
 bool differ_in_laws(const std::vector<ChildRun>& columns) {
   std::set<std::string> laws;

@@ -54,6 +54,13 @@ TEST(ColumnColors, AreTheLawsOwn) {
   EXPECT_EQ(column_families(alone), std::vector<std::string>(2)) << "of one law";
 }
 
+TEST(ColumnColors, AreTheLawsOwnBesideAColumnThatWasRefused) {
+  ChildRun refused;
+  refused.line.flags = {{"law", "spring"}};
+  EXPECT_EQ(column_colors({of_law("linear"), refused}),
+            (std::vector{color_of_law("linear"), color_of_law("spring")}));
+}
+
 // Lines of any two laws differ in colour for everyone, or in their dashes.
 TEST(ColumnColors, OrDashesTellAllLawsApart) {
   std::vector<std::string> colors;
