@@ -21,5 +21,6 @@ if [[ -n ${HYSTERON_TIDY_SECONDS:-} ]]; then
   "$root/tests/tidy.sh" --seconds "$HYSTERON_TIDY_SECONDS" || [[ $? == 77 ]]
 fi
 # Some tests wait, for a browser or a killed run: one more than there are cores.  None needs a second thread for itself.
+at_once=$(($(nproc) + 1))  # nproc itself follows OMP_NUM_THREADS
 export OMP_NUM_THREADS=1
-exec ctest --test-dir "$build_folder" --output-on-failure --parallel "$(($(nproc) + 1))" "$@"
+exec ctest --test-dir "$build_folder" --output-on-failure --parallel "$at_once" "$@"

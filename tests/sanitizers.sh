@@ -18,6 +18,7 @@ tests=("$@")
 cmake --preset asan -B "$build" "${options[@]}" >/dev/null
 cmake --build "$build" --target "${tests[@]}"
 
+at_once=$(nproc)  # nproc itself follows OMP_NUM_THREADS
 # A finding of either sanitizer ends the test program.
 export OMP_NUM_THREADS=1 ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 check() {
@@ -32,4 +33,4 @@ check() {
 }
 export -f check
 export build
-printf '%s\n' "${tests[@]}" | xargs -P "$(nproc)" -I{} bash -c 'check {}' || exit 1
+printf '%s\n' "${tests[@]}" | xargs -P "$at_once" -I{} bash -c 'check {}' || exit 1
