@@ -94,6 +94,7 @@ class DecayModel {
     // Interpolates between amplitudes as a power, which a line (0) and a hyperbola (2) are; below them as a
     // hyperbola.
     double at(double amplitude) const {
+      if (std::isnan(amplitude)) return amplitude;  // of stops that a search tries and refuses
       const double x = std::log(std::max(amplitude, 1e-300));
       if (x <= logarithm.front()) return fall.front() * std::exp(2 * (x - logarithm.front()));
       if (x >= logarithm.back()) return fall.back();
