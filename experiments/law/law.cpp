@@ -252,9 +252,9 @@ LawFlags read_flags(const CommandLine& line) {
     if (flag.path == "fabric") apply(flag);
   Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
   for (const Flag& flag : line.flags) {
-    const auto* k0 = flag.path == "k0" ? std::get_if<double>(&flag.value) : nullptr;
-    if (!k0 || !fabric.kes.gives_numbers()) continue;
-    fabric.k0 = *k0;
+    if (flag.path != "k0" || !fabric.kes.gives_numbers()) continue;
+    apply(flag);
+    fabric.k0 = flags.curve.k0;
     fabric.follow_kes();  // so that B and 2HB stay
   }
   flags.curve = fabric.virgin_curve();
