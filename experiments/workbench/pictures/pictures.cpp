@@ -19,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 8;             // most pictures on the contact sheet
-constexpr double kCellPixels = 560 * 420;  // pixels drawn for each of them
-constexpr float kSheetRoom = 0.06f;        // margin around its contents on either side
-constexpr int kSkins = 14;                 // instants of a motion in one picture
-constexpr float kInsetFraction = 0.18f;    // share of a picture, which is wide
+constexpr int kSheetCells = 8;           // most pictures on the contact sheet
+constexpr float kSheetRoom = 0.06f;      // margin around a further view's contents on either side
+constexpr const char* kEnlarged = "× ";  // before how many times a picture is enlarged
+constexpr int kSkins = 14;               // instants of a motion in one picture
+constexpr float kInsetFraction = 0.18f;  // share of a picture, which is wide
 
 // Returns "frames/0012.png"; for further looks "frames-LOOK/0012.png".
 std::string frame_file(const std::string& look, bool first, int number) {
@@ -275,25 +275,6 @@ void Pictures::serialise(Archive& archive, Run& run) {
     archived_frames_.continue_file(run.path(kArchivedFrames), static_cast<std::size_t>(frames_));
 }
 
-// Returns a view as near as all instants are entirely visible, unless the options set it; its aspect is that
-// of their contents.
-SheetView Pictures::sheet_view(const std::vector<ArchivedInstant>& instants) const {
-  constexpr float kTallest = 0.7f, kWidest = 2.4f;
-  const Options& o = options_;
-  if (!o.camera_box.empty() || !o.camera_target.empty() || o.camera_distance > 0)
-    return {camera(), picture_aspect(o)};
-  std::vector<float> all;
-  for (const ArchivedInstant& instant : instants)
-    all.insert(all.end(), instant.xyz.begin(), instant.xyz.end());
-  const Eigen::Vector3f direction = o.camera_direction.cast<float>();
-  const float fov = static_cast<float>(o.camera_fov);
-  const render::Window square =
-      render::Camera::around(all, direction, fov, 1, kSheetRoom).image_window(all, 1);
-  const float aspect = std::clamp(
-      static_cast<float>((square.right - square.left) / (square.top - square.bottom)), kTallest, kWidest);
-  return {render::Camera::around(all, direction, fov, aspect, kSheetRoom), aspect};
-}
-
 // Uses white paper, if the look allows it: cells of a page have no boxes.
 render::Look Pictures::sheet_look() const {
   Options options = options_;
@@ -304,33 +285,38 @@ render::Look Pictures::sheet_look() const {
 }
 
 render::Image Pictures::sheet_picture(SceneRenderer& studio, const ArchivedInstant& instant,
-                                      const SheetView& view) const {
+                                      const render::Camera& camera) const {
   studio.view().set_positions(instant.xyz);
-  render::Image image = studio.draw_with_ghosts(sheet_look(), view.camera, {instant.time, instant.values});
+  render::Image image = studio.draw_with_ghosts(sheet_look(), camera, {instant.time, instant.values});
   render::fade_to_page(image);
   return image;
+}
+
+// Draws an instant, from nearer by if its cloth is small in the view, which its caption says.
+render::SheetEntry Pictures::sheet_cell(SceneRenderer& studio, const ArchivedInstant& instant,
+                                        const SheetView& view) const {
+  const std::optional<NearerView> nearer = nearer_view(instant.xyz, view, options_);
+  return {sheet_picture(studio, instant, nearer ? nearer->camera : view.camera),
+          instant.caption + (nearer ? fmt::format(" ({}{:g})", kEnlarged, nearer->enlargement) : ""),
+          {.path = instant.loop, .color = color_of_law(scene_.law)}};
 }
 
 // Leaves out instants that look like an earlier one, but keeps the last.
 std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<ArchivedInstant>& instants,
                                                       const std::vector<ArchivedInstant>& motion,
                                                       const SheetView& view) {
-  const int width = static_cast<int>(std::lround(std::sqrt(kCellPixels * view.aspect))),
-            height = static_cast<int>(std::lround(width / view.aspect));
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
-    studio.take_size({width, height, picture_size(options_).samples});
+    studio.take_size({view.width, view.height, picture_size(options_).samples});
     std::vector<render::SheetEntry> cells;
-    const auto add = [&](render::Image image, const std::string& words, const render::Path& loop) {
-      cells.push_back({std::move(image), words, {.path = loop, .color = color_of_law(scene_.law)}});
-    };
     std::vector<render::Image> skins;
-    for (const ArchivedInstant& instant : motion) skins.push_back(sheet_picture(studio, instant, view));
+    for (const ArchivedInstant& instant : motion)
+      skins.push_back(sheet_picture(studio, instant, view.camera));
     if (!skins.empty())
-      add(render::onion_skin(skins), fmt::format("0–{:.2f} s, over each other", motion.back().time),
-          motion.back().loop);
-    for (const ArchivedInstant& instant : instants)
-      add(sheet_picture(studio, instant, view), instant.caption, instant.loop);
+      cells.push_back({render::onion_skin(skins),
+                       fmt::format("0–{:.2f} s, over each other", motion.back().time),
+                       {.path = motion.back().loop, .color = color_of_law(scene_.law)}});
+    for (const ArchivedInstant& instant : instants) cells.push_back(sheet_cell(studio, instant, view));
     cells = distinct_cells(cells);
     for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
     return cells;
@@ -360,16 +346,18 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
                                                               : std::vector<ArchivedInstant>{};
   std::vector<ArchivedInstant> shown = instants;
   shown.insert(shown.end(), skins.begin(), skins.end());
-  const SheetView view = sheet_view(shown);
+  const SheetView view = sheet_view(shown, options_, bounds_);
   std::vector<render::SheetEntry> cells = sheet_cells(instants, skins, view);
   render::LoopFrame frame;
   for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
   for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
   render::ComparisonSheet page{.title = title, .scale_note = "at the cloth's middle"};
-  const double metres_per_pixel = view.camera.metres_per_pixel(
-      render::bounding_box(instants.back().xyz).center(), cells.front().image.height());
+  if (std::ranges::any_of(cells, [](const render::SheetEntry& cell) {
+        return cell.caption.find(kEnlarged) != std::string::npos;
+      }))
+    page.scale_note += fmt::format("; {}n: n times as large", kEnlarged);
   if (const auto bar = value_color_bar(scene_, options_, options_.looks().front())) page.bars.push_back(*bar);
-  write(run.path("sheet.png"), render::contact_sheet(cells, page, metres_per_pixel));
+  write(run.path("sheet.png"), render::contact_sheet(cells, page, view.metres_per_pixel));
   keep_sheet(run, instants, skins, title);
 }
 

@@ -14,6 +14,7 @@
 #include "experiments/workbench/pictures/archived_instants.h"
 #include "experiments/workbench/pictures/frame_source.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "experiments/workbench/pictures/sheet_view.h"
 #include "render/contact_sheet.h"
 #include "render/loop_inset.h"
 #include "render/png_writer.h"
@@ -23,12 +24,6 @@ namespace hysteron::experiments {
 
 // Returns the files that finish() and frame() write under these options, for Run::reserve().
 std::vector<std::string> picture_files(const Options& options);
-
-// The camera and shape of every cell of a contact sheet.
-struct SheetView {
-  render::Camera camera;
-  float aspect;  // width over height
-};
 
 class Pictures {
  public:
@@ -102,10 +97,11 @@ class Pictures {
   void fill(SceneRenderer& studio, const FrameJob& order);
   render::Image single(SceneRenderer& studio, const std::string& look, const render::Camera& camera,
                        const std::string& caption, const SceneRenderer::Shown& shown);
-  SheetView sheet_view(const std::vector<ArchivedInstant>& instants) const;
   render::Look sheet_look() const;
   render::Image sheet_picture(SceneRenderer& studio, const ArchivedInstant& instant,
-                              const SheetView& view) const;
+                              const render::Camera& camera) const;
+  render::SheetEntry sheet_cell(SceneRenderer& studio, const ArchivedInstant& instant,
+                                const SheetView& view) const;
   std::vector<render::SheetEntry> sheet_cells(const std::vector<ArchivedInstant>& instants,
                                               const std::vector<ArchivedInstant>& motion,
                                               const SheetView& view);
