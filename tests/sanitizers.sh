@@ -21,16 +21,22 @@ cmake --build "$build" --target "${tests[@]}"
 at_once=$(nproc)  # nproc itself follows OMP_NUM_THREADS
 # A finding of either sanitizer ends the test program.
 export OMP_NUM_THREADS=1 ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+shards=8  # of each program, so that every core has work to the end
+# check TEST SHARD
 check() {
-  local log=$build/$1.log
-  if "$build/$1" --gtest_brief=1 &>"$log"; then
-    echo "$1: $(grep -E '^\[  PASSED  \]' "$log")"
-  else
+  local log=$build/$1-$2.log
+  if ! GTEST_TOTAL_SHARDS=$shards GTEST_SHARD_INDEX=$2 "$build/$1" --gtest_brief=1 &>"$log"; then
     echo "$1: failed, see $log"
     grep -E 'ERROR: |runtime error: |^\[  FAILED  \]' "$log" | head -n 20
     return 1
   fi
 }
 export -f check
-export build
-printf '%s\n' "${tests[@]}" | xargs -P "$at_once" -I{} bash -c 'check {}' || exit 1
+export build shards
+for test in "${tests[@]}"; do
+  for ((shard = 0; shard < shards; ++shard)); do printf '%s %d\0' "$test" "$shard"; done
+done | xargs -0 -P "$at_once" -I{} bash -c 'check {}' || exit 1
+for test in "${tests[@]}"; do
+  echo "$test: $(sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' "$build/$test"-[0-9]*.log |
+    awk '{n += $1} END {print n}') tests passed"
+done

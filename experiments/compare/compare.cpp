@@ -118,7 +118,7 @@ void read_flags(const CommandLine& line, CompareParams& choice, Options& options
   for (const Flag& flag : line.flags)
     for (const Keys* keys : {&own, &general})
       for (const BoundKey& key : *keys)
-        if (key.description.path == flag.path) assign(key, flag.value, "--" + flag.path);
+        if (key.description.path == flag.path) assign(key, flag.value, flag.name());
   KeyValues values = key_values(own);
   values.merge(key_values(general));
   refuse_unread_flags(line, values);

@@ -32,10 +32,9 @@ void apply_flags(const CommandLine& line, Options& options) {
     if (path == "render.part" || path == kFilm || path == kFilmSize || path == kTitle)
       continue;  // these are options of the page, not of a picture
     if (path.starts_with("render.") || path == "fps")
-      throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
+      throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (" + flag.name() + ")")
           .with_key(flag.path, flag.text());
-    const std::string origin = "--" + flag.path;
-    assign(find_key(keys, path, origin), flag.value, origin);
+    assign(find_key(keys, path, flag.name()), flag.value, flag.name());
   }
   if (options.out.empty()) options.out = kOut;
 }

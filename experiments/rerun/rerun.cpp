@@ -176,7 +176,7 @@ Workflow workflow_of_runs(const fs::path& folder, const fs::path& out, const std
                                         "--out",   (target / name).string(),
                                         "--quiet", "--threads=" + std::string(kThreads)};
       for (const Flag& flag : flags)
-        if (flag.path != "threads") words.push_back("--" + flag.path + "=" + flag.text());
+        if (flag.path != "threads") words.push_back(flag.word());
       workflow.jobs.push_back({name, words, job_resources(run, line, flags)});
     } catch (const Error& error) {
       left_out.push_back(name + ": " + error.what());

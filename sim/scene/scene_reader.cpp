@@ -65,7 +65,7 @@ class SceneKeys {
     std::stable_partition(flags.begin(), flags.end(),
                           [](const Flag& flag) { return key_of_flag(flag.path) == "fabric.name"; });
     for (const Flag& flag : flags) {
-      const std::string origin = "--" + flag.path;
+      const std::string origin = flag.name();
       const BoundKey& key = find_key(known_, key_of_flag(flag.path), origin);
       set(key, flag.value, origin);
       if (flag.path == "param") note_parameter(flag.text(), origin);

@@ -19,6 +19,10 @@ struct Flag {
   Value value;
 
   std::string text() const { return value_text(value); }
+  std::string name() const { return "--" + path; }
+  std::string word() const { return name() + "=" + text(); }  // as another process is given it
+  // Returns it as messages name it: "--fabric.b2 1e-05"; a switch that is on by its name alone.
+  std::string shown() const { return name() + (value == Value(true) ? "" : " " + text()); }
   bool operator==(const Flag&) const = default;
 };
 

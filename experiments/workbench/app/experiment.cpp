@@ -64,6 +64,13 @@ void check_errors(const std::string& experiment) {
       .with_key("errors", "true");
 }
 
+std::vector<std::string> CommandLine::words() const {
+  std::vector<std::string> words = {experiment};
+  words.insert(words.end(), positionals.begin(), positionals.end());
+  for (const Flag& flag : flags) words.push_back(flag.word());
+  return words;
+}
+
 Flag parsed_flag(const std::string& experiment, const std::string& path, const std::string& text) {
   const auto in = [&](const std::vector<KeyDescription>& keys) -> std::optional<Flag> {
     const auto key = std::ranges::find_if(
@@ -197,8 +204,7 @@ std::vector<std::string> law_names() {
 }
 
 void assign_flag(const Keys& keys, const Flag& flag) {
-  const std::string origin = "--" + flag.path;
-  assign(find_key(keys, flag.path, origin), flag.value, origin);
+  assign(find_key(keys, flag.path, flag.name()), flag.value, flag.name());
 }
 
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {

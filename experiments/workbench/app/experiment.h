@@ -32,6 +32,9 @@ struct CommandLine {
   // Keys for which this page lists several values: each of its runs has one of them, and checks what depends
   // on it.
   std::vector<std::string> listed = {};
+
+  // Returns the line's words, as another process is given them.
+  std::vector<std::string> words() const;
 };
 
 // Returns the flag of a text, whose value has the type of the experiment's key; of an unknown key the text

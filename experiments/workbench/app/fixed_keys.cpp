@@ -26,8 +26,7 @@ void throw_if_flags(const CommandLine& line, const std::vector<FixedKey>& fixed_
   for (const Flag& flag : line.flags)
     for (const FixedKey& key : fixed_keys)
       if (key_of_flag(flag.path) == key.path)
-        throw Error::invalid_input("--" + flag.path + (flag.value == Value(true) ? "" : " " + flag.text()) +
-                                   ": " + fixed_key_message(line.experiment, key))
+        throw Error::invalid_input(flag.shown() + ": " + fixed_key_message(line.experiment, key))
             .with_key(key.path, flag.text());
 }
 

@@ -215,8 +215,7 @@ void refuse_unread_flags(const CommandLine& line, const KeyValues& values) {
   for (const Flag& flag : line.flags) {
     const KeyCondition* condition = broken_condition(conditions, request, flag.path);
     if (!condition || !is_given(line, flag.path)) continue;
-    const std::string what = "--" + flag.path + (flag.value == Value(true) ? "" : " " + flag.text());
-    throw Error::invalid_input(unread_message(request, *condition, what, flag.path))
+    throw Error::invalid_input(unread_message(request, *condition, flag.shown(), flag.path))
         .with_key(flag.path, flag.text());
   }
 }

@@ -60,12 +60,7 @@ bool takes(const Experiment& experiment, const std::string& key) {
 }
 
 // Returns the line as typed: "hysteron drape --scene=a.toml".
-std::string typed_command(const CommandLine& line) {
-  std::vector<std::string> words = {"hysteron", line.experiment};
-  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text());
-  return shell_text(words);
-}
+std::string typed_command(const CommandLine& line) { return "hysteron " + shell_text(line.words()); }
 
 }  // namespace
 

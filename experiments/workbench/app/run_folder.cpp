@@ -79,8 +79,7 @@ void throw_if_input(const std::string& what, const std::string& text, const fs::
 void throw_if_inputs(const CommandLine& line, const fs::path& folder, const std::vector<fs::path>& names) {
   for (const Flag& flag : line.flags) {
     if (flag.path == "out") continue;
-    for (const std::string& text : split(flag.text()))
-      throw_if_input("--" + flag.path + " ", text, folder, names);
+    for (const std::string& text : split(flag.text())) throw_if_input(flag.name() + " ", text, folder, names);
   }
   for (const std::string& text : line.positionals) throw_if_input("", text, folder, names);
 }

@@ -42,14 +42,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kNotRun = -1;  // in place of an exit code
 
-// Returns the words after `hysteron`.
-std::vector<std::string> line_arguments(const CommandLine& line) {
-  std::vector<std::string> words = {line.experiment};
-  words.insert(words.end(), line.positionals.begin(), line.positionals.end());
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text());
-  return words;
-}
-
 // True for a flag that a page handles itself or adds to its columns' flags; it is no part of the columns'
 // requests.
 bool is_of_page(const std::string& flag) { return simulation_traits(flag).is_of_page(); }
@@ -59,7 +51,7 @@ Json requested(const ChildRun& column) {
   return {{"commit", kGitCommit},
           {"dirty", kGitDirty},
           {"build", program_build()},
-          {"words", line_arguments(column.line)}};
+          {"words", column.line.words()}};
 }
 
 std::vector<std::string> words_in(const Json& list) {
@@ -74,15 +66,15 @@ std::vector<std::string> noted_text(const RunSpec& spec, const std::string& expe
   CommandLine line{experiment, "", {}, spec.positionals};
   for (const auto& [path, text] : spec.flags)
     if (!is_of_page(path)) line.flags.push_back(parsed_flag(experiment, path, text));
-  return line_arguments(line);
+  return line.words();
 }
 
 // Returns the words that the manifest of the column's run will record, in the parser's order.
 std::vector<std::string> words_to_note(const ChildRun& column) {
-  std::vector<std::string> words = line_arguments(column.line);
+  std::vector<std::string> words = column.line.words();
   words.insert(words.begin(), "hysteron");
   const auto line = parse_command_line(words, {experiment_named(column.line.experiment)});
-  return line ? line_arguments(*line) : words;
+  return line ? line->words() : words;
 }
 
 // Adds "--gravity differs" for each differing flag.
@@ -106,7 +98,7 @@ std::vector<std::string> changes_since(const ChildRun& column, const Manifest* m
                                        const Json& outcome) {
   std::vector<std::string> changes;
   const Json& asked = json_at(outcome, "asked");
-  add_differing_text(words_in(json_at(asked, "words")), line_arguments(column.line), changes);
+  add_differing_text(words_in(json_at(asked, "words")), column.line.words(), changes);
   if (manifest) std::ranges::copy(input_changes(manifest->inputs), std::back_inserter(changes));
   if (json_at(asked, "build") != Json(program_build()))
     changes.push_back("its program is another build of " + program_version());
@@ -135,7 +127,7 @@ std::vector<std::string> program_with(ProcessShare process_share) {
 
 // Returns the words after `hysteron` for the column's run.
 std::vector<std::string> child_arguments(const ChildRun& column, const SweepJobs& jobs, int threads) {
-  std::vector<std::string> words = line_arguments(column.line);
+  std::vector<std::string> words = column.line.words();
   words.push_back("--quiet=true");
   words.push_back("--out=" + column.folder.string());
   if (experiment_named(column.line.experiment).simulates)

@@ -23,7 +23,7 @@ SweepJobs taken_from(CommandLine& line) {
   for (const BoundKey& key : bind(kPageRows, jobs))
     std::erase_if(line.flags, [&](const Flag& flag) {
       if (flag.path != key.description.path) return false;
-      assign(key, flag.value, "--" + flag.path);
+      assign(key, flag.value, flag.name());
       return true;
     });
   return jobs;
