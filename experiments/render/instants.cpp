@@ -150,6 +150,8 @@ Error no_common_instant(const Sequences& sequences) {
 void number_frames(const Sequences& sequences) {
   Sequences single, several;
   for (TimedSequence* s : sequences) (s->files.size() == 1 ? single : several).push_back(s);
+  if (several.empty())
+    for (TimedSequence* s : single) s->fps = 0;
   if (!have_numbers(several)) {
     for (TimedSequence* s : sequences) number_by_order(*s);
     return;

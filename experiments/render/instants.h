@@ -19,7 +19,8 @@ struct TimedSequence : MeshSequence {
 // gap.  Numbers are counted from the first one if all sequences begin with the same, else from 0, and in
 // steps of their greatest common divisor: files 0, 10, 20 are frames 0, 1, 2.  Sequences of one rate have one
 // step.  A sequence of one file, which has no number, is at the first frame of all others.  If a longer one
-// has no numbers in its names, every file of every sequence is a frame.
+// has no numbers in its names, every file of every sequence is a frame.  If all have one file, nothing says
+// when that was: they lose their rate.
 void number_frames(const std::vector<TimedSequence*>& sequences);
 
 // Returns a line for each sequence that lacks frames, whose files have no numbers, or, if the rate is known,

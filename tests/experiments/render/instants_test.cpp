@@ -109,5 +109,17 @@ TEST(Instants, OfSeveralFilesKeepTheirGapsBesideASingleFile) {
   EXPECT_EQ(single.shown, (Files{0}));
 }
 
+// The last meshes of two runs are at no common time that their files tell.
+TEST(Instants, OfSingleFilesHaveNoTime) {
+  TimedSequence a = numbered("a", {20}, 10), b = numbered("b", {35}, 10);
+  choose(a, b);
+  EXPECT_EQ(a.fps, 0);
+  EXPECT_EQ(b.fps, 0);
+  EXPECT_EQ(a.shown, (Files{0}));
+  TimedSequence film = numbered("film", {0, 1}, 10), single = numbered("single", {7}, 10);
+  choose(film, single);
+  EXPECT_EQ(film.fps, 10);
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

@@ -98,6 +98,24 @@ TEST_F(Gallery, SaysWhatRunsWarnOf) {
       1);
 }
 
+// A manifest keeps the words of the program that wrote it; the page does not repeat what is known to be
+// wrong.
+TEST_F(Gallery, SaysTodayWhatEarlierProgramsSaidOfSharpFolds) {
+  {
+    ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "folded"));
+    run.metric("recovery_angle_deg", 49.8);
+    run.warn(
+        "up to 8.0 % of the edges were folded by more than 0.5 rad, where bending is more than 2.5 % too "
+        "soft: "
+        "take more triangles");
+    run.finish();
+  }
+  const std::string html = page();
+  EXPECT_FALSE(says(html, "too soft"));
+  EXPECT_TRUE(says(
+      html, "8.0 % of the edges were folded by more than 0.5 rad, where triangles are coarse for the fold"));
+}
+
 TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
   EXPECT_EQ(occurrences(page(), ">incomplete<"), 0);
   { ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "broken-off")); }
