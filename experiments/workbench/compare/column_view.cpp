@@ -64,8 +64,8 @@ std::string readable(double value, const std::string& unit) {
   return three_digits(value / factor) + (unit.empty() ? "" : " " + std::string(prefix) + unit);
 }
 
-// Returns the law of a column, or "" if its manifest is missing.
-// Returns the law that the column was asked for, if it was refused.
+// Returns the law of a column; of one that was refused, and so has no manifest, the law that it was asked
+// for.
 std::string column_law(const ChildRun& column) {
   return column.manifest ? column.manifest->text("law") : last_text(column.line.flags, "law", "");
 }

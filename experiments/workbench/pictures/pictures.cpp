@@ -344,8 +344,8 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   const std::vector<ArchivedInstant> instants = chosen(cell_times_, kSheetCells, INFINITY),
                                      skins = onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_)
                                                               : std::vector<ArchivedInstant>{};
-  std::vector<ArchivedInstant> shown = instants;
-  shown.insert(shown.end(), skins.begin(), skins.end());
+  std::vector<ArchivedInstant> shown = skins;  // before the cells, whose last one sets the scale
+  shown.insert(shown.end(), instants.begin(), instants.end());
   const SheetView view = sheet_view(shown, options_, bounds_);
   std::vector<render::SheetEntry> cells = sheet_cells(instants, skins, view);
   render::LoopFrame frame;
