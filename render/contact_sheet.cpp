@@ -1,5 +1,7 @@
 #include "render/contact_sheet.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -21,10 +23,13 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, ComparisonSheet page
   if (entries.empty()) throw Error::invalid_input("contact sheet: there are no pictures");
   page.in_sequence = true;
   page.rows = {{"", "", metres_per_pixel}};
+  const auto is_enlarged = [](const SheetEntry& entry) { return entry.enlargement != 1; };
+  if (std::ranges::any_of(entries, is_enlarged)) page.scale_note += "; × n: n times as large";
   for (const SheetEntry& entry : entries) {
     if (entry.image.empty())
       throw Error::invalid_input("contact sheet: the picture \"" + entry.caption + "\" is empty");
-    page.columns.push_back({entry.caption, {}, {}, "", {{entry.image, "", entry.loop}}});
+    const std::string scale = is_enlarged(entry) ? fmt::format(" (× {:g})", entry.enlargement) : "";
+    page.columns.push_back({entry.caption + scale, {}, {}, "", {{entry.image, "", entry.loop}}});
   }
   return draw_comparison(page);
 }

@@ -14,8 +14,9 @@ namespace hysteron::render {
 
 struct SheetEntry {
   Image image;
-  std::string caption;  // one line over the picture
-  LoopInset loop{};     // inset in a corner of the picture; empty: none
+  std::string caption;    // one line over the picture
+  LoopInset loop{};       // inset in a corner of the picture; empty: none
+  float enlargement = 1;  // over the page's scale; another one stands behind the caption
 };
 
 // Draws cells that are equally large and show each picture whole.  `page` has no rows and columns, which it

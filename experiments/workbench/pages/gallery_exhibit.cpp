@@ -215,9 +215,10 @@ std::string metrics_html(const Manifest& manifest) {
   return metric_cards(first);
 }
 
-// Returns a recorded warning as is known today: of sharp folds earlier programs said what holds of vertices
-// held on a cylinder, while cloth at rest is off by some percent in either direction (docs/limits.md).
-std::string in_todays_words(std::string warning) {
+// Returns a recorded warning without what is known to be wrong: earlier programs said of sharp folds what
+// holds of vertices that are held on a cylinder; cloth at rest is off by some percent in either direction
+// (docs/limits.md, sharp folds).
+std::string corrected(std::string warning) {
   constexpr std::string_view kThen = "where bending is more than 2.5 % too soft",
                              kToday =
                                  "where triangles are coarse for the fold and bending is off by some percent";
@@ -229,7 +230,7 @@ std::string in_todays_words(std::string warning) {
 // Returns the first warning in one line.
 std::string warnings_note(const std::vector<std::string>& all) {
   if (all.empty()) return "";
-  return "Warning: " + in_todays_words(all[0]) +
+  return "Warning: " + corrected(all[0]) +
          (all.size() > 1 ? "; " + std::to_string(all.size() - 1) + " more in manifest.json" : "");
 }
 

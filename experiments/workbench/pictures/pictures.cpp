@@ -21,7 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSheetCells = 8;           // most pictures on the contact sheet
 constexpr float kSheetRoom = 0.06f;      // margin around a further view's contents on either side
-constexpr const char* kEnlarged = "× ";  // before how many times a picture is enlarged
 constexpr int kSkins = 14;               // instants of a motion in one picture
 constexpr float kInsetFraction = 0.18f;  // share of a picture, which is wide
 
@@ -292,13 +291,14 @@ render::Image Pictures::sheet_picture(SceneRenderer& studio, const ArchivedInsta
   return image;
 }
 
-// Draws an instant, from nearer by if its cloth is small in the view, which its caption says.
+// Draws an instant, from nearer by if its cloth is small in the view.
 render::SheetEntry Pictures::sheet_cell(SceneRenderer& studio, const ArchivedInstant& instant,
                                         const SheetView& view) const {
   const std::optional<NearerView> nearer = nearer_view(instant.xyz, view, options_);
   return {sheet_picture(studio, instant, nearer ? nearer->camera : view.camera),
-          instant.caption + (nearer ? fmt::format(" ({}{:g})", kEnlarged, nearer->enlargement) : ""),
-          {.path = instant.loop, .color = color_of_law(scene_.law)}};
+          instant.caption,
+          {.path = instant.loop, .color = color_of_law(scene_.law)},
+          nearer ? nearer->enlargement : 1};
 }
 
 // Leaves out instants that look like an earlier one, but keeps the last.
@@ -352,10 +352,6 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
   for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
   render::ComparisonSheet page{.title = title, .scale_note = "at the cloth's middle"};
-  if (std::ranges::any_of(cells, [](const render::SheetEntry& cell) {
-        return cell.caption.find(kEnlarged) != std::string::npos;
-      }))
-    page.scale_note += fmt::format("; {}n: n times as large", kEnlarged);
   if (const auto bar = value_color_bar(scene_, options_, options_.looks().front())) page.bars.push_back(*bar);
   write(run.path("sheet.png"), render::contact_sheet(cells, page, view.metres_per_pixel));
   keep_sheet(run, instants, skins, title);

@@ -106,8 +106,7 @@ TEST_F(Gallery, SaysTodayWhatEarlierProgramsSaidOfSharpFolds) {
     run.metric("recovery_angle_deg", 49.8);
     run.warn(
         "up to 8.0 % of the edges were folded by more than 0.5 rad, where bending is more than 2.5 % too "
-        "soft: "
-        "take more triangles");
+        "soft: take more triangles");
     run.finish();
   }
   const std::string html = page();
