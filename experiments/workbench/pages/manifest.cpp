@@ -76,6 +76,7 @@ bool is_numerics(const std::string& key) {
   static const std::set<std::string> kOthers = {"parts_count",
                                                 "integrator_share_percent",
                                                 "sharp_edges_percent",
+                                                "tilted_triangles_percent",
                                                 "residual_curvature_formula_rms_per_m",
                                                 "setup_seconds",
                                                 "fastest_m_per_s",

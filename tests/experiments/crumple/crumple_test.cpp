@@ -26,6 +26,8 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
   EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
   EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
+  EXPECT_GT(hysteretic["metrics"]["tilted_triangles_percent"], 1);
+  EXPECT_TRUE(says(hysteretic["warnings"].dump(), "coarse for their fold"));
   EXPECT_EQ(read_table(run.out / "table.csv").rows.size(), 2u);
 }
 
