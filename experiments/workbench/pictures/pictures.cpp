@@ -20,7 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kSheetCells = 8;           // most pictures on the contact sheet
-constexpr float kSheetRoom = 0.06f;      // margin around a further view's contents on either side
 constexpr int kSkins = 14;               // instants of a motion in one picture
 constexpr float kInsetFraction = 0.18f;  // share of a picture, which is wide
 
@@ -327,12 +326,7 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<Archived
 render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherView& from,
                                           const SheetView& view) const {
   const ArchivedInstant& last = kept_.last();
-  const float fov = static_cast<float>(options_.camera_fov);
-  const render::Camera near = render::Camera::around(last.xyz, from.direction, fov, view.aspect, kSheetRoom);
-  const float distance =
-      std::max((near.eye() - near.target()).norm(), (view.camera.eye() - view.camera.target()).norm());
-  const render::Camera camera =
-      render::Camera::perspective(near.target() + distance * from.direction.normalized(), near.target(), fov);
+  const render::Camera camera = further_view(last.xyz, from.direction, view, options_);
   studio.view().set_positions(last.xyz);
   render::Image image = studio.draw(sheet_look(), camera, {last.time, last.values});
   render::fade_to_page(image);

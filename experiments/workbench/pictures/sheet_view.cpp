@@ -13,9 +13,13 @@ constexpr float kRoom = 0.06f;                    // margin around a cell's cont
 constexpr float kTallest = 0.4f, kWidest = 2.4f;  // least and largest aspect of a cell
 constexpr double kWorthwhile = 1.75;              // least enlargement of a picture from nearer by
 
+render::Camera camera_from(const Eigen::Vector3f& direction, const std::vector<float>& xyz, float aspect,
+                           const Options& options) {
+  return render::Camera::around(xyz, direction, static_cast<float>(options.camera_fov), aspect, kRoom);
+}
+
 render::Camera camera_around(const std::vector<float>& xyz, float aspect, const Options& options) {
-  return render::Camera::around(xyz, options.camera_direction.cast<float>(),
-                                static_cast<float>(options.camera_fov), aspect, kRoom);
+  return camera_from(options.camera_direction.cast<float>(), xyz, aspect, options);
 }
 
 bool sets_view(const Options& options) {
@@ -58,6 +62,15 @@ std::optional<NearerView> nearer_view(const std::vector<float>& xyz, const Sheet
   return NearerView{render::Camera::perspective(own.target() + back * (own.eye() - own.target()),
                                                 own.target(), own.fov_degree()),
                     static_cast<float>(enlargement)};
+}
+
+render::Camera further_view(const std::vector<float>& xyz, const Eigen::Vector3f& direction,
+                            const SheetView& view, const Options& options) {
+  const render::Camera near = camera_from(direction, xyz, view.aspect, options);
+  const float distance =
+      std::max((near.eye() - near.target()).norm(), (view.camera.eye() - view.camera.target()).norm());
+  return render::Camera::perspective(near.target() + distance * direction.normalized(), near.target(),
+                                     static_cast<float>(options.camera_fov));
 }
 
 }  // namespace hysteron::experiments

@@ -33,4 +33,8 @@ struct NearerView {
 std::optional<NearerView> nearer_view(const std::vector<float>& xyz, const SheetView& view,
                                       const Options& options);
 
+// Returns a view of one instant's cloth from another direction, at most as near as the other cells'.
+render::Camera further_view(const std::vector<float>& xyz, const Eigen::Vector3f& direction,
+                            const SheetView& view, const Options& options);
+
 }  // namespace hysteron::experiments
