@@ -73,7 +73,10 @@ class ProbedLoops {
   explicit ProbedLoops(const std::vector<ChildRun>& columns);
   // Returns the loop of column c; behind it in grey that of prandtl, if that is another column.
   render::LoopInset at(std::size_t c, double time) const;
-  std::string note() const { return reference_ && loops_.size() > 1 ? "grey: prandtl" : ""; }
+  // Says by its name in column_names() whose the grey loop is; "" if there is none.
+  std::string note(const std::vector<std::string>& names) const {
+    return reference_ && loops_.size() > 1 ? "grey: " + names[*reference_] : "";
+  }
 
  private:
   struct Loop {

@@ -81,7 +81,7 @@ class PageTable {
       : page_(page), columns_(columns), loops_(columns) {
     sheet_.columns = column_heads(columns, page.metrics, page.names);
     sheet_.scale_note = "at the cloth's middle";
-    sheet_.loop_note = loops_.note();
+    sheet_.loop_note = loops_.note(column_names(columns, page.names));
     if (page.outlines && columns.size() > 1 && columns.size() <= kMaxOutlined)
       sheet_.columns.push_back({"all, outlined", {}, {}, "", {}});
   }

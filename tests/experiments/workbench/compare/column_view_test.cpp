@@ -10,6 +10,7 @@
 #include "render/color_map.h"
 #include "render/color_vision.h"
 #include "sim/bending/laws/law_parameters.h"
+#include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -40,6 +41,23 @@ ChildRun of_law(const std::string& law) {
   ChildRun run;
   run.manifest.emplace().keys = std::make_shared<const Json>(Json{{"law", law}});
   return run;
+}
+
+// All fabrics have one law then, whose name would say nothing.
+TEST(ProbedLoops, NameTheColumnThatIsGrey) {
+  const Folder folder;
+  folder.write("probe1.csv", "time,curvature,moment\n0,0,0\n1,100,1e-3\n");
+  std::vector<ChildRun> fabrics;
+  for (const char* name : {"cotton-broad", "wool-tropical"}) {
+    ChildRun run = of_law("prandtl");
+    run.name = name;
+    run.folder = folder.path();
+    run.manifest->curves = {{"plot_probe1_moment_warp", "probe1.csv", "curvature", "moment", false, ""}};
+    fabrics.push_back(run);
+  }
+  EXPECT_EQ(ProbedLoops(fabrics).note(column_names(fabrics)), "grey: cotton-broad");
+  fabrics.pop_back();
+  EXPECT_EQ(ProbedLoops(fabrics).note(column_names(fabrics)), "") << "it is in its own colour";
 }
 
 // A law keeps its colour whatever columns stand beside it.
