@@ -35,6 +35,7 @@ Setup defaults() {
   scene.seconds = 6;  // until swings are small enough to show how they decay
   scene.step = 1.0 / 240;
   scene.fabric.damping = 1e-5;
+  scene.origin.erase("fabric.damping");  // a default of this experiment, which no file has said
   setup.options.fps = 30;
   setup.options.camera_direction = {0.2, -1.0, 0.3};
   setup.options.camera_fov = 24;

@@ -46,6 +46,7 @@ struct Body {
   Buffer<VertexLedger, Device> ledger;
   Pins<Real, Device> pins;
   Diagnostics counts;
+  long last_pinched = -1, last_deep = -1;  // the parts that were counted so last (pinch.h)
   // True if pins, obstacles or commands have changed forces at once since the stage accepted last.
   bool forces_discontinuous = false;
 

@@ -139,8 +139,8 @@ std::optional<typename ImplicitIntegrator<Real, Device>::Failure>
 ImplicitIntegrator<Real, Device>::finish_part(const Part& part) {
   const double first = first_stage(part.h);
   const Part second{part.start + first, part.h - first, part.halvings};
+  ++body_.counts.parts;  // before its stages end, which count what they see once a part
   accept(second.start);
-  ++body_.counts.parts;
   if (!solver_.has_two_stages()) return std::nullopt;
   const NewtonOutcome outcome = attempt(second.start, second.h, false, second.is_shortest());
   if (!outcome.is_accepted()) return Failure{second, outcome};

@@ -26,6 +26,15 @@ std::vector<char> pinched_vertices(Body<Real, Device>& body, const ObstacleSet<d
   return pinched;
 }
 
+// Counts the present part of a step if something was `seen` in it for the first time; `last` is the part
+// counted last, as the number of steps and parts before it.
+void count_part(const Diagnostics& counts, bool seen, long& last, long& parts) {
+  const long present = counts.steps + counts.parts;
+  if (!seen || last == present) return;
+  last = present;
+  ++parts;
+}
+
 }  // namespace
 
 template <class Real, class Device>
@@ -41,15 +50,15 @@ void count_overlap(Body<Real, Device>& body, double time) {
     others[i] = pinched[i] || held[i];
   }
   const Immersion deepest_pinched = deepest(set, x, spared);
-  body.counts.pinched += deepest_pinched.count > 0;
+  count_part(body.counts, deepest_pinched.count > 0, body.last_pinched, body.counts.pinched);
   body.counts.pinch_depth = std::max(body.counts.pinch_depth, deepest_pinched.depth);
-  body.counts.deep += deepest(set, x, others).count > 0;
+  count_part(body.counts, deepest(set, x, others).count > 0, body.last_deep, body.counts.deep);
 }
 
 template <class Real, class Device>
 void count_dents(Body<Real, Device>& body) {
   const double deepest = body.self_contact->deepest_dent();
-  body.counts.pinched += deepest > 0;
+  count_part(body.counts, deepest > 0, body.last_pinched, body.counts.pinched);
   body.counts.pinch_depth = std::max(body.counts.pinch_depth, deepest);
 }
 

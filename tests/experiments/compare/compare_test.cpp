@@ -231,7 +231,10 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   EXPECT_EQ(file_content(folder.path() / "table.csv"),
             "law,turns,loss_J,set_m,stopped\nlinear,3,,,\nprandtl,2,0.5,,\"at 1 s, crushed\"\n");
   const auto metrics = metrics_of(folder.path());
-  EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
+  EXPECT_EQ(metrics, Json({{"linear.turns", 3},
+                           {"linear.decay_shape", "plateau"},
+                           {"prandtl.turns", 2},
+                           {"prandtl.loss_J", 0.5}}));
 }
 
 std::string compare_refusal(const std::string& more) {

@@ -159,5 +159,21 @@ TEST(Swing, KeepsItsEnergyBalanceWhereFrictionHasDirectionsOfItsOwn) {
   }
 }
 
+// A fabric that is asked for brings its own.
+TEST(Swing, DampsByADefaultOfItsOwnThatNoFileHasSaid) {
+  const auto scene_of = [](const std::vector<Flag>& more) {
+    const Folder folder;
+    std::vector<Flag> flags = {{"triangles", 30}, {"seconds", 0.01}, {"device", "cpu"}};
+    flags.insert(flags.end(), more.begin(), more.end());
+    EXPECT_EQ(run_into(folder.path(), "swing", flags), 0);
+    return manifest_in(folder.path())["scene"];
+  };
+  const Json own = scene_of({}), asked = scene_of({{"fabric.name", "cotton-broad"}});
+  EXPECT_EQ(own["fabric"]["damping"], 1e-5);
+  EXPECT_FALSE(own["origin"].contains("fabric.damping"));
+  EXPECT_EQ(asked["fabric"]["damping"], 1e-4);
+  EXPECT_TRUE(says(asked["origin"]["fabric.damping"], "cotton-broad.toml"));
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

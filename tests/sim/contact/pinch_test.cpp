@@ -78,6 +78,19 @@ TEST(Press, BeyondTheThicknessPinchesTheSheetAndLetsItGo) {
   }
 }
 
+// A part of tr-bdf2 has two stages, and the sheet is pinched at the end of either.
+TEST(Press, IsCountedOnceAStep) {
+  const auto pinched = [](const char* integrator) {
+    const Trial trial = pressed_sheet(integrator, -4 * Fabric{}.thickness);
+    const auto simulation = trial.simulation();
+    EXPECT_EQ(press(trial, *simulation), kAccepted) << integrator;
+    return static_cast<double>(simulation->counts().pinched);
+  };
+  const double once = pinched("bdf2");
+  EXPECT_GT(once, 10);
+  EXPECT_NEAR(pinched("tr-bdf2") / once, 1, 0.2);
+}
+
 // The lower of two layers, folded upon each other, is held; below two thicknesses, less what the barrier
 // gives in, the plate has no room.
 Trial pressed_layers(double lowest) {
