@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
+#include <tuple>
 
 #include "render/color_map.h"
 #include "render/gnuplot.h"
@@ -16,14 +19,53 @@
 namespace hysteron::render {
 namespace {
 
+// Where a value lies along an axis, from 0 at its low end to 1.
+struct Reach {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool logarithmic;
+
+  double of(double v) const { return logarithmic ? std::log10(v) : v; }
+  double at(double v) const { return (of(v) - low) / (high - low); }
+};
+
+Reach reach(const Axis& axis, const std::vector<Series>& all, std::vector<double> Series::*values) {
+  Reach r{.logarithmic = axis.logarithmic};
+  for (const Series& series : all)
+    for (double v : series.*values)
+      if (std::isfinite(r.of(v))) r.low = std::min(r.low, r.of(v)), r.high = std::max(r.high, r.of(v));
+  if (axis.low != axis.high) r.low = r.of(axis.low), r.high = r.of(axis.high);
+  return r;
+}
+
+// Returns points of all series, those of lines also between their data, from (0, 0) at the lower left corner
+// to (1, 1).
+std::vector<Eigen::Vector2d> drawn_points(const Plot& plot) {
+  constexpr int kBetween = 8;
+  const Reach x = reach(plot.x, plot.series, &Series::x), y = reach(plot.y, plot.series, &Series::y);
+  std::vector<Eigen::Vector2d> points;
+  for (const Series& series : plot.series) {
+    const bool is_line = series.style != Series::Style::points && series.style != Series::Style::rings;
+    Eigen::Vector2d before(NAN, NAN);
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+      const Eigen::Vector2d here(x.at(series.x[i]), y.at(series.y[i]));
+      for (int k = 1; is_line && k < kBetween; ++k) points.push_back(before + (here - before) * k / kBetween);
+      points.push_back(here);
+      before = here;
+    }
+  }
+  std::erase_if(points, [](const Eigen::Vector2d& p) { return !p.allFinite(); });
+  return points;
+}
+
 std::string frame_commands(const Plot& plot) {
   std::string script =
       "set border 3 lw 1.2 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
       "set datafile missing 'NaN'\nset lmargin 11\nset style fill solid 0.9 noborder\n";
   script += "set bmargin " + std::string(plot.x.categories.empty() ? "4" : "8") + "\nset boxwidth " +
             gnuplot::number(plot.bar_width) + "\n";
-  script += plot.key_inside ? "set key inside right bottom vertical reverse Left samplen 2.5 spacing 1.25\n"
-                            : "unset key\n";
+  script += plot.key_inside
+                ? "set key inside " + key_corner(plot) + " vertical reverse Left samplen 2.5 spacing 1.25\n"
+                : "unset key\n";
   script += plot.axes_at_zero
                 ? "set xzeroaxis lt 1 lw 1.2 lc rgb '#888888'\nset yzeroaxis lt 1 lw 1.2 lc rgb '#888888'\n"
                 : "set grid lc rgb '#DDDDDD' lw 0.8 lt 1, lc rgb '#EEEEEE' lw 0.5 lt 1\n";
@@ -249,6 +291,25 @@ std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
     all.push_back(std::move(series));
   }
   return all;
+}
+
+std::string key_corner(const Plot& plot) {
+  constexpr double kWidth = 0.42, kLine = 0.08;  // of a key, and a line's height, over the plot's
+  const auto lines = std::ranges::count_if(plot.series, [](const Series& s) { return !s.label.empty(); });
+  const std::vector<Eigen::Vector2d> points = drawn_points(plot);
+  std::string best;
+  std::ptrdiff_t fewest = 0;
+  for (const auto& [corner, right, top] : {std::tuple{"right bottom", true, false},
+                                           {"right top", true, true},
+                                           {"left top", false, true},
+                                           {"left bottom", false, false}}) {
+    const auto covered = std::ranges::count_if(points, [&](const Eigen::Vector2d& p) {
+      const double inwards = right ? 1 - p.x() : p.x(), away = top ? 1 - p.y() : p.y();
+      return inwards < kWidth && away < kLine * static_cast<double>(lines);
+    });
+    if (best.empty() || covered < fewest) best = corner, fewest = covered;
+  }
+  return best;
 }
 
 Series bar_errors(const std::vector<double>& values, const std::vector<double>& errors) {

@@ -43,7 +43,7 @@ struct Plot {
   bool equal_scales = false;      // one unit is as long along x as along y, for outlines
   std::vector<Mark> marks{};
   bool axes_at_zero = false;  // lines through the origin replace the grid
-  bool key_inside = false;    // key in the lower right corner; else lines have labels at their ends
+  bool key_inside = false;    // key in a corner, key_corner(); else lines have labels at their ends
   double bar_width = 0.8;     // width of bars in units of x
   std::string note{};         // a line below the title
 };
@@ -60,6 +60,10 @@ SiPrefix si_prefix(double value);
 // named); empty cells are gaps.
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label);
+
+// Returns the corner in which a key of all labels covers the least of the data, in gnuplot's words: "right
+// bottom" if others are no better.
+std::string key_corner(const Plot& plot);
 
 // Returns the errors of bars as a vertical line each from value - error to value + error at 0, 1, 2, ...; an
 // error that is not finite has none.

@@ -31,6 +31,24 @@ bool is_blue(const std::uint8_t* pixel) { return pixel[2] > pixel[0] + 100; }
 
 using PlotTest = test::GnuplotTest;
 
+// Where corners are alike it stays at the lower right.
+TEST(KeyCorner, IsWhereAKeyCoversTheLeastOfTheData) {
+  Plot plot = parabola();
+  Series& points = plot.series[0];
+  points.style = Series::Style::points;
+  points.x = {0, 5, 10};
+  points.y = {50, 0, 50};
+  plot.y.high = 100;
+  EXPECT_EQ(key_corner(plot), "right bottom");
+  points.y = {50, 0, 2};
+  EXPECT_EQ(key_corner(plot), "right top");
+  points.y = {0, 98, 50};
+  EXPECT_EQ(key_corner(plot), "right bottom");
+  plot.series.push_back({"a line through it", {5, 10}, {50, -40}});
+  plot.y.low = -40;
+  EXPECT_EQ(key_corner(plot), "right top") << "lines are data between their points, too";
+}
+
 // Labels are text, not markup; two files of one plot are equal, though they are written at different times.
 TEST_F(PlotTest, IsAPngAnSvgAndAPdfThatDoesNotSayWhenItWasWritten) {
   write_plot(folder_.file("p"), parabola());
