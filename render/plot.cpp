@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <iterator>
 #include <limits>
-#include <tuple>
 
 #include "render/color_map.h"
 #include "render/gnuplot.h"
@@ -297,17 +296,19 @@ std::string key_corner(const Plot& plot) {
   constexpr double kWidth = 0.42, kLine = 0.08;  // of a key, and a line's height, over the plot's
   const auto lines = std::ranges::count_if(plot.series, [](const Series& s) { return !s.label.empty(); });
   const std::vector<Eigen::Vector2d> points = drawn_points(plot);
+  struct Corner {
+    const char* name;
+    bool right, top;
+  };
   std::string best;
   std::ptrdiff_t fewest = 0;
-  for (const auto& [corner, right, top] : {std::tuple{"right bottom", true, false},
-                                           {"right top", true, true},
-                                           {"left top", false, true},
-                                           {"left bottom", false, false}}) {
+  for (const Corner& corner : {Corner{"right bottom", true, false}, Corner{"right top", true, true},
+                               Corner{"left top", false, true}, Corner{"left bottom", false, false}}) {
     const auto covered = std::ranges::count_if(points, [&](const Eigen::Vector2d& p) {
-      const double inwards = right ? 1 - p.x() : p.x(), away = top ? 1 - p.y() : p.y();
+      const double inwards = corner.right ? 1 - p.x() : p.x(), away = corner.top ? 1 - p.y() : p.y();
       return inwards < kWidth && away < kLine * static_cast<double>(lines);
     });
-    if (best.empty() || covered < fewest) best = corner, fewest = covered;
+    if (best.empty() || covered < fewest) best = corner.name, fewest = covered;
   }
   return best;
 }
