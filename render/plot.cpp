@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -17,44 +16,6 @@
 
 namespace hysteron::render {
 namespace {
-
-// Where a value lies along an axis, from 0 at its low end to 1.
-struct Reach {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  bool logarithmic;
-
-  double of(double v) const { return logarithmic ? std::log10(v) : v; }
-  double at(double v) const { return (of(v) - low) / (high - low); }
-};
-
-Reach reach(const Axis& axis, const std::vector<Series>& all, std::vector<double> Series::*values) {
-  Reach r{.logarithmic = axis.logarithmic};
-  for (const Series& series : all)
-    for (double v : series.*values)
-      if (std::isfinite(r.of(v))) r.low = std::min(r.low, r.of(v)), r.high = std::max(r.high, r.of(v));
-  if (axis.low != axis.high) r.low = r.of(axis.low), r.high = r.of(axis.high);
-  return r;
-}
-
-// Returns points of all series, those of lines also between their data, from (0, 0) at the lower left corner
-// to (1, 1).
-std::vector<Eigen::Vector2d> drawn_points(const Plot& plot) {
-  constexpr int kBetween = 8;
-  const Reach x = reach(plot.x, plot.series, &Series::x), y = reach(plot.y, plot.series, &Series::y);
-  std::vector<Eigen::Vector2d> points;
-  for (const Series& series : plot.series) {
-    const bool is_line = series.style != Series::Style::points && series.style != Series::Style::rings;
-    Eigen::Vector2d before(NAN, NAN);
-    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-      const Eigen::Vector2d here(x.at(series.x[i]), y.at(series.y[i]));
-      for (int k = 1; is_line && k < kBetween; ++k) points.push_back(before + (here - before) * k / kBetween);
-      points.push_back(here);
-      before = here;
-    }
-  }
-  std::erase_if(points, [](const Eigen::Vector2d& p) { return !p.allFinite(); });
-  return points;
-}
 
 std::string frame_commands(const Plot& plot) {
   std::string script =
@@ -155,6 +116,32 @@ Axis bounded(Axis axis, const std::vector<Series>& all, std::vector<double> Seri
     axis.high = high + room;
   }
   return axis;
+}
+
+// Returns where a value lies on an axis with limits, from 0 at its low end to 1.
+double place_on(const Axis& axis, double value) {
+  const auto scaled = [&](double v) { return axis.logarithmic ? std::log10(v) : v; };
+  return (scaled(value) - scaled(axis.low)) / (scaled(axis.high) - scaled(axis.low));
+}
+
+// Returns points of all series, those of lines also between their data, from (0, 0) at the lower left corner
+// to (1, 1).
+std::vector<Eigen::Vector2d> drawn_points(const Plot& plot) {
+  constexpr int kBetween = 8;
+  const Axis x = bounded(plot.x, plot.series, &Series::x, 0), y = bounded(plot.y, plot.series, &Series::y, 0);
+  std::vector<Eigen::Vector2d> points;
+  for (const Series& series : plot.series) {
+    const bool is_line = series.style != Series::Style::points && series.style != Series::Style::rings;
+    Eigen::Vector2d before(NAN, NAN);
+    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+      const Eigen::Vector2d here(place_on(x, series.x[i]), place_on(y, series.y[i]));
+      for (int k = 1; is_line && k < kBetween; ++k) points.push_back(before + (here - before) * k / kBetween);
+      points.push_back(here);
+      before = here;
+    }
+  }
+  std::erase_if(points, [](const Eigen::Vector2d& p) { return !p.allFinite(); });
+  return points;
 }
 
 // Where all values lie within a tenth of the largest, the axis spans that tenth: noise does not fill the

@@ -18,13 +18,12 @@ FacetTilt::FacetTilt(const ClothMesh& mesh)
   }
 }
 
-std::vector<double> FacetTilt::tilts(const std::vector<double>& angle) const {
+std::vector<double> FacetTilt::tilts(const std::vector<double>& bent) const {
   std::vector<double> result(side_.size());
   for (std::size_t f = 0; f < side_.size(); ++f) {
     Eigen::Vector3d s = Eigen::Vector3d::Zero();
     for (int j = shape_.hinge.start[f]; j < shape_.hinge.start[f + 1]; ++j) {
-      const int hinge = shape_.hinge.item[j];
-      s += (angle[hinge] - shape_.rest_angle[hinge]) *
+      s += bent[shape_.hinge.item[j]] *
            Eigen::Vector3d::Map(&shape_.coefficient[3 * static_cast<std::size_t>(j)]);
     }
     Eigen::Matrix2d tensor;

@@ -18,9 +18,9 @@ namespace hysteron {
 class FacetTilt {
  public:
   explicit FacetTilt(const ClothMesh& mesh);
-  // Returns the tilt of every triangle [rad], >= 0, at the given angles of all hinges [rad], each from the
-  // larger of its principal curvatures.
-  std::vector<double> tilts(const std::vector<double>& angle) const;
+  // Returns the tilt of every triangle [rad], >= 0, where all hinges are `bent` by these angles from rest
+  // [rad], each from the larger of its principal curvatures.
+  std::vector<double> tilts(const std::vector<double>& bent) const;
 
  private:
   CurvatureOperator shape_;                           // a tensor for each triangle

@@ -31,7 +31,7 @@ bool is_blue(const std::uint8_t* pixel) { return pixel[2] > pixel[0] + 100; }
 
 using PlotTest = test::GnuplotTest;
 
-// Where corners are alike it stays at the lower right.
+// The key stays at the lower right where corners are alike.
 TEST(KeyCorner, IsWhereAKeyCoversTheLeastOfTheData) {
   Plot plot = parabola();
   Series& points = plot.series[0];

@@ -85,9 +85,9 @@ void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs
 void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,
                             const std::vector<std::string>& metrics) {
   const std::vector<std::string> keys = metrics.empty() ? metrics_in(columns, is_numeric) : metrics;
-  const auto is_wanted = [&](const std::string& key) {
-    return metrics.empty() || std::ranges::count(metrics, key) > 0;
-  };
+  const std::vector<std::string> named =
+      metrics.empty() ? metrics_in(columns, [](const MetricValue& v) { return v.is_number() || v.is_text(); })
+                      : metrics;
   Table table(std::vector{varied});
   table.head.insert(table.head.end(), keys.begin(), keys.end());
   table.head.push_back("stopped");
@@ -96,9 +96,8 @@ void write_comparison_table(Run& run, const std::string& varied, const std::vect
     if (column.manifest) run.manifest().requested_metrics = column.manifest->requested_metrics;
     std::vector<Cell> fields = {column.name};
     for (const std::string& key : keys) fields.push_back(metric_field(found[key]));
-    for (const auto& [key, value] : found)
-      if (is_wanted(key) && (value.is_number() || value.is_text()))
-        run.metric(column.name + "." + key, value);
+    for (const std::string& key : named)
+      if (found[key].is_number() || found[key].is_text()) run.metric(column.name + "." + key, found[key]);
     fields.push_back(column.stopped);
     table.row(fields);
   }

@@ -210,11 +210,12 @@ class SharpFolds : public Observer {
  public:
   explicit SharpFolds(const ClothMesh& mesh) : mesh_(mesh), rest_angle_(rest_angles(mesh)), tilt_(mesh) {}
   void watch(Session&, const Snapshot& instant) override {
-    const std::vector<double> angle = hinge_angles(mesh_, instant.x);
-    std::size_t sharp = 0;
-    for (std::size_t e = 0; e < angle.size(); ++e) sharp += std::abs(angle[e] - rest_angle_[e]) > kSharp;
-    edges_ = std::max(edges_, share(sharp, angle.size()));
-    const std::vector<double> tilt = tilt_.tilts(angle);
+    std::vector<double> bent = hinge_angles(mesh_, instant.x);
+    for (std::size_t e = 0; e < bent.size(); ++e) bent[e] -= rest_angle_[e];
+    edges_ = std::max(
+        edges_,
+        share(std::ranges::count_if(bent, [](double a) { return std::abs(a) > kSharp; }), bent.size()));
+    const std::vector<double> tilt = tilt_.tilts(bent);
     triangles_ = std::max(
         triangles_, share(std::ranges::count_if(tilt, [](double t) { return t > kTilted; }), tilt.size()));
   }
