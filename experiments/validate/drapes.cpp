@@ -64,7 +64,10 @@ void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run
   for (const Drape& drape : drapes)
     columns.push_back(child_run(drape.name(), line, drape_flags(drape, flags), run.folder()));
   run_columns(run, columns,
-              {.resume = flags.resume, .gpu = flags.device != NamedDevice::cpu, .batch = flags.batch});
+              {.at_once = flags.jobs,
+               .resume = flags.resume,
+               .gpu = flags.device != NamedDevice::cpu,
+               .batch = flags.batch});
   for (std::size_t d = 0; d < drapes.size(); ++d) {
     Drape& drape = drapes[d];
     const ChildRun& column = columns[d];

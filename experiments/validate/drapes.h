@@ -33,6 +33,7 @@ struct ValidateFlags {
   int samples = 8;     // number of draws of each fabric's uncertain numbers
   int draws = 3;       // number of meshes for the mean of a drape in a budget
   unsigned seed = 1;   // seed of the samples
+  int jobs = 0;        // number of processes at a time; 0: one for each GPU, or for each core
   int batch = 1;       // number of drapes that share a process
   bool resume = false;
   Options options;

@@ -33,6 +33,7 @@ const KeyRow<F> kRows[] = {
     {"samples", at<&F::samples>, "", between(2, 1000), "of a fabric's uncertain numbers, from the ranges that its file states"},
     {"draws", at<&F::draws>, "", between(2, 1000), "meshes of each drape in a budget"},
     {"seed", at<&F::seed>, "", any(), "of the samples"},
+    {"jobs", at<&F::jobs>, "", between(0, 64), "how many processes at a time; 0: one for each GPU, or for each core"},
     {"batch", at<&F::batch>, "", between(1, kLargestBatch), kBatchDoc},
     {"resume", at<&F::resume>, "", any(), "keeps the drapes that have run whose request, program and files are the same"},
     {"seconds", at<&F::seconds>, "s", at_least(0), "longest simulated time of a drape; 0: as drape has it"},
@@ -87,12 +88,12 @@ Experiment validate() {
           .question = "the model against measurements: loops, decay, drapes, folds",
           .run = run_validate,
           .own_keys = own_key_descriptions<option_keys>,
-          .conditions = {
-              {"recorded", "parts = figure"},
-              {"standard | fabrics | laws | device | triangles | step | tolerance | seconds | batch | resume",
-               "parts = spread | budget"},
-              {"samples | seed", "parts = spread"},
-              {"draws", "parts = budget"}}};
+          .conditions = {{"recorded", "parts = figure"},
+                         {"standard | fabrics | laws | device | triangles | step | tolerance | seconds | "
+                          "jobs | batch | resume",
+                          "parts = spread | budget"},
+                         {"samples | seed", "parts = spread"},
+                         {"draws", "parts = budget"}}};
 }
 
 }  // namespace hysteron::experiments
