@@ -8,6 +8,7 @@
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/pages/error_notes.h"
+#include "experiments/workbench/session/run_warnings.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int kFiner = 4;  // factor of the triangles
 constexpr std::size_t kDrawsForAMean = 3;
+constexpr char kHalfTheStep[] = "step";  // name of the repeat
 
 // Returns the other structured families; those for a tube close at its seam.
 std::vector<MeshFamily> other_families(const Scene& scene) {
@@ -91,15 +93,33 @@ bool is_unchanged(const ChildRun& column, const Run& run) {
          column.manifest->state_hash == run.manifest().state_hash;
 }
 
-// Warns of what the columns report beyond the run's own warnings.
+bool is_of_integrator(const std::string& text) { return text.starts_with(kIntegrator); }
+
+// Returns what the integrator took, negative if it gave, over what else was dissipated.
+double integrator_part(const Manifest& manifest) {
+  double taken = 0;  // [J]
+  for (const auto& [name, joules] : manifest.energy)
+    if (name.starts_with("integrator_")) taken += joules;
+  const double share = manifest.metrics["integrator_share_percent"].number() / 100;
+  return std::copysign(share / (1 - share), taken);
+}
+
+// Warns of what the columns report beyond the run's own warnings.  Where the run warns of its integrator,
+// half the step tells what shorter ones would change, and the other repeats' estimates are left out.
 void warn_about_columns(const std::vector<ChildRun>& columns, Run& run) {
   ColumnWarnings warnings;
   const std::vector<std::string>& own = run.manifest().warnings;
+  const bool warns_of_integrator = std::any_of(own.begin(), own.end(), is_of_integrator);
   for (const ChildRun& column : columns) {
     if (!column.manifest) continue;
     std::vector<std::string> texts = column.manifest->warnings;
-    std::erase_if(texts,
-                  [&](const std::string& text) { return std::count(own.begin(), own.end(), text) > 0; });
+    std::erase_if(texts, [&](const std::string& text) {
+      return std::count(own.begin(), own.end(), text) > 0 || (warns_of_integrator && is_of_integrator(text));
+    });
+    if (warns_of_integrator && column.name == kHalfTheStep &&
+        column.metrics()["integrator_share_percent"].is_number())
+      texts.push_back(integrator_text(integrator_part(run.manifest()), integrator_part(*column.manifest),
+                                      run.manifest().number("step")));
     warnings.add("errors, " + column.name, texts);
   }
   warnings.emit(run);
@@ -151,7 +171,7 @@ class Estimate {
 
   Errors errors() {
     for (const std::string& name : names_) {
-      single(name, "step", kStepError);
+      single(name, kHalfTheStep, kStepError);
       single(name, "mesh", kMeshError);
       mesh_samples(name);
       path(name);
@@ -235,7 +255,7 @@ std::vector<ErrorRun> planned_error_runs(const std::string& experiment, const Sc
   const bool drawn = !from_a_file(scene);
   // The longest runs come first, because they run side by side.
   error_runs.push_back({"mesh", {finer_mesh(scene)}});
-  if (!headlines.equilibria) error_runs.push_back({"step", half_the_step(scene)});
+  if (!headlines.equilibria) error_runs.push_back({kHalfTheStep, half_the_step(scene)});
   for (int mesh_sample = 1; drawn && mesh_sample <= mesh_samples; ++mesh_sample)
     error_runs.push_back({"draw-" + std::to_string(mesh_sample), headlines.own_mesh
                                                                      ? resized_mesh(scene, mesh_sample)

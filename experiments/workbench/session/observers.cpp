@@ -125,7 +125,7 @@ void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
   run.metric("energy_remainder_relative", ledger.remainder_relative);
   run.metric("integrator_share_percent", 100 * fraction);
   if (scene.integrator == Integrator::quasi_static) return;
-  const std::string warning = integrator_text(fraction, scene.step);
+  const std::string warning = integrator_text(ledger, scene.step);
   if (!warning.empty()) run.warn(warning);
 }
 
