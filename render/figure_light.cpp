@@ -8,6 +8,7 @@
 
 #include "render/exposure.h"
 #include "render/shadow_maps.h"
+#include "sim/base/rotation.h"
 
 namespace hysteron::render {
 namespace {
@@ -29,8 +30,7 @@ float u(int index, int base) { return static_cast<float>(radical_inverse(index, 
 // Returns the transform from world to clip space of a parallel light that sees the box; `texel` becomes the
 // size of a texel in a map of `side` texels [m].
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Box& box, int side, float& texel) {
-  const Eigen::Matrix3f turn =
-      Eigen::Quaternionf::FromTwoVectors(to_light, Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3f turn = rotation_between(to_light, Eigen::Vector3f::UnitZ());
   const Eigen::Vector3f half = 0.5f * (box.high - box.low);
   const Eigen::Vector3f reach =
       kBorder * (turn.cwiseAbs() * half).cwiseMax(1e-3f * box.radius()).cwiseMax(1e-6f);

@@ -1,4 +1,5 @@
 #include "render/shadow_maps.h"
+#include "sim/base/rotation.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -49,8 +50,7 @@ constexpr float kBorder = 1.05f;
 // Returns the transform from world to clip space of a parallel light that sees the sphere around the casters.
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Eigen::Vector3f& center, float radius) {
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
-  const Eigen::Matrix3f turn =
-      Eigen::Quaternionf::FromTwoVectors(to_light.normalized(), Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3f turn = rotation_between(to_light.normalized(), Eigen::Vector3f::UnitZ());
   // The light's own z axis points to it; depth grows away from it.
   const Eigen::Matrix3f scaled = Eigen::Vector3f(1, 1, -1).asDiagonal() * turn / (kBorder * radius);
   matrix.topLeftCorner<3, 3>() = scaled;

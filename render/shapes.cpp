@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/rotation.h"
 
 namespace hysteron::render {
 
@@ -175,8 +176,7 @@ TriangleMesh smooth_mesh(std::span<const Eigen::Vector3d> position, std::span<co
 
 Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axis) {
   Eigen::Matrix4f transform = Eigen::Matrix4f::Identity();
-  transform.topLeftCorner<3, 3>() =
-      Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), axis.normalized()).toRotationMatrix();
+  transform.topLeftCorner<3, 3>() = rotation_between(Eigen::Vector3f::UnitZ(), axis.normalized());
   transform.topRightCorner<3, 1>() = center;
   return transform;
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "sim/base/enum_names.h"
+#include "sim/base/rotation.h"
 #include "sim/contact/compression.h"
 #include "sim/scene/motion.h"
 
@@ -45,8 +46,7 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
     const Obstacle& o = obstacles[i];
     if (o.kind == ObstacleKind::mesh || start < o.from || start >= o.until) continue;
     const Placement now = placement(o.motion, end), then = placement(o.motion, start);
-    const Eigen::Matrix3d own =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();
+    const Eigen::Matrix3d own = rotation_between(Eigen::Vector3d::UnitZ(), o.axis.normalized());
     const Eigen::Matrix3d back = then.scale / now.scale * then.rotation * now.rotation.transpose();
     Obstacle3<Real>& item = set.item[set.count++];
     item.shape.kind = o.kind;

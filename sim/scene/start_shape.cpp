@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/base/error.h"
+#include "sim/base/rotation.h"
 #include "sim/mesh/file_extension.h"
 #include "sim/mesh/garment.h"
 #include "sim/mesh/random_points.h"
@@ -57,7 +58,7 @@ class Knot {
           h / 6 * (curve_.first(u - h).norm() + 4 * curve_.first(u - h / 2).norm() + curve_.first(u).norm()));
     }
     // Both ends have the same direction, in the plane of x and z; this rotation turns it to x.
-    level_ = Eigen::Quaterniond::FromTwoVectors(curve_.first(0), Vector3d::UnitX()).toRotationMatrix();
+    level_ = rotation_between(curve_.first(0), Vector3d::UnitX());
   }
 
   double length() const { return arc_length_.back(); }

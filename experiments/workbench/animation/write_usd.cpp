@@ -12,6 +12,7 @@
 #include "render/figure_light.h"
 #include "render/key_light.h"
 #include "sim/base/atomic_file.h"
+#include "sim/base/rotation.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -223,8 +224,7 @@ void write_lights(std::ostream& out, const AnimatedScene& scene) {
   const Eigen::Vector3d to_light =
       render::key_direction(scene.view.look, scene.view.camera, {}).normalized().cast<double>();
   Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-  turn.topLeftCorner<3, 3>() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to_light).toRotationMatrix();
+  turn.topLeftCorner<3, 3>() = rotation_between(Eigen::Vector3d::UnitZ(), to_light);
   out << "    def DistantLight \"key_light\"\n    {\n";
   Properties key(out, scene);
   key.line(fmt::format("float inputs:angle = {:.6g}",
