@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/app/integrator_texts.h"
 #include "experiments/workbench/app/key_conditions.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/pages/error_notes.h"
-#include "experiments/workbench/session/run_warnings.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"

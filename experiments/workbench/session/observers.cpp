@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/integrator_texts.h"
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/closing_summary.h"
 #include "experiments/workbench/pictures/drawing.h"
