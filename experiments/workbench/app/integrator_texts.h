@@ -7,10 +7,7 @@
 
 namespace hysteron::experiments {
 
-// Warnings about the integrator begin with this; and its share of all dissipated energy beyond which it is
-// said.
-inline constexpr char kIntegrator[] = "the integrator";
-inline constexpr double kMostOfIntegrator = 0.25;
+inline constexpr char kIntegrator[] = "the integrator";  // begins the warnings about it
 
 // Warns if the integrator took or gave more than a quarter of all dissipated energy; "" otherwise.  The step
 // [s] that it names for an integrator that takes is an estimate, assuming that its part falls as the step
