@@ -10,8 +10,9 @@ namespace hysteron {
 namespace fs = std::filesystem;
 
 namespace {
-fs::path assets_place;  // the folder of another program that uses the library; empty: none
-}
+const fs::path kAssets = "assets";  // how names in records begin
+fs::path assets_place;              // the folder of another program that uses the library; empty: none
+}  // namespace
 
 void set_assets_place(const fs::path& folder) { assets_place = folder; }
 
@@ -34,6 +35,16 @@ fs::path assets_folder() {
   throw Error::system("no assets folder at " + join(looked, " or ") + "; set HYSTERON_ASSETS to it");
 }
 
+namespace {
+fs::path folder_if_any() {
+  try {
+    return assets_folder();
+  } catch (const Error&) {  // in an installation without assets
+    return {};
+  }
+}
+}  // namespace
+
 fs::path find_asset(const std::string& kind, const std::string& name, const std::string& origin) {
   std::error_code ignored;
   if (fs::is_regular_file(name, ignored)) return name;
@@ -50,10 +61,18 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
 }
 
 std::string asset_name(const fs::path& file) {
-  const fs::path inside = fs::absolute(file).lexically_normal().lexically_relative(
-      fs::absolute(assets_folder()).lexically_normal());
+  const fs::path folder = folder_if_any();
+  if (folder.empty()) return file.string();
+  const fs::path inside =
+      fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
   const bool outside = inside.empty() || *inside.begin() == "..";
-  return outside ? file.string() : ("assets" / inside).string();
+  return outside ? file.string() : (kAssets / inside).string();
+}
+
+fs::path asset_place(const std::string& name) {
+  const fs::path path = name, folder = folder_if_any();
+  if (folder.empty() || path.empty() || *path.begin() != kAssets) return path;
+  return folder / path.lexically_relative(kAssets);
 }
 
 std::vector<std::string> list_assets(const std::string& kind) {

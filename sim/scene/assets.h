@@ -22,8 +22,11 @@ void set_assets_place(const std::filesystem::path& folder);
 std::filesystem::path find_asset(const std::string& kind, const std::string& name, const std::string& origin);
 
 // Returns a file's name for records: assets/... if it lies in the assets folder, which is elsewhere on every
-// machine.
+// machine; else, and in an installation without assets, the file as it is.
 std::string asset_name(const std::filesystem::path& file);
+// Returns where the file, or the pattern of several, that asset_name() has named is on this machine; a name
+// that does not begin with assets/ as it is.
+std::filesystem::path asset_place(const std::string& name);
 
 // Lists the names of all assets of a kind, sorted, without folder and ending.
 std::vector<std::string> list_assets(const std::string& kind);

@@ -4,8 +4,10 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
+#include "sim/scene/assets.h"
 #include "sim/scene/cycles.h"
 #include "sim/scene/fabric_reader.h"
+#include "sim/scene/mesh_files.h"
 #include "sim/scene/shown_key.h"
 
 namespace hysteron {
@@ -384,11 +386,12 @@ void set_key(Scene& scene, const std::string& path, const std::string& text, con
 
 Json to_json(const Scene& scene) {
   Scene copy = scene;
+  for (const MeshFile& mesh : mesh_files(copy)) *mesh.path = asset_name(*mesh.path);
   Json tree = to_json(bind_scene(copy));
   tree["fabric"]["provenance"] = provenance_json(scene.fabric);
   tree["fabric"]["published"] = published_json(scene.fabric);
   tree["pin"] = tables_json(scene.pin, bind_pin);
-  tree["obstacle"] = tables_json(scene.obstacle, bind_obstacle);
+  tree["obstacle"] = tables_json(copy.obstacle, bind_obstacle);
   tree["command"] = tables_json(scene.command, bind_command);
   tree["phase"] = tables_json(scene.phase, bind_phase);
   tree["origin"] = scene.origin;

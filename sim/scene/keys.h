@@ -36,6 +36,7 @@ void set_key(Scene& scene, const std::string& path, const std::string& text, con
 void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin);
 
 // Returns the resolved scene: every key in SI units, the fabric's sources, and where each key was set.
+// Shipped meshes are named assets/..., as asset_name() does.
 nlohmann::ordered_json to_json(const Scene& scene);
 
 }  // namespace hysteron

@@ -31,7 +31,7 @@ std::string integrator_text(const Ledger& ledger, double step) {
 }
 
 std::string integrator_text(double part, double at_half, double step) {
-  const auto percent = [](double p) { return 100 * std::abs(p) / (1 + std::abs(p)); };
+  const auto percent = [](double p) { return 100 - 100 / (1 + std::abs(p)); };  // 100 of an infinite part
   const double at_none = 2 * at_half - part;
   const std::string text =
       fmt::format("{}'s share of all dissipation is {:.0f} %, {:.0f} % with half the step", kIntegrator,

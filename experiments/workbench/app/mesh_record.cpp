@@ -8,6 +8,7 @@
 #include "sim/base/fnv1a.h"
 #include "sim/base/whole_file.h"
 #include "sim/mesh/mesh_sequence.h"
+#include "sim/scene/assets.h"
 #include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
@@ -39,7 +40,7 @@ std::optional<fs::path> below(const fs::path& folder, const MeshRecord& record) 
 }
 
 std::string found(const MeshRecord& record, const fs::path& manifest) {
-  if (names_files(record.file)) return record.file;
+  if (const fs::path shipped = asset_place(record.file); names_files(shipped)) return shipped.string();
   for (fs::path folder = fs::absolute(manifest).lexically_normal().parent_path();;
        folder = folder.parent_path()) {
     if (const auto moved = below(folder, record)) return moved->string();
@@ -68,7 +69,7 @@ std::vector<MeshRecord> mesh_records(const Scene& scene) {
   std::vector<MeshRecord> records;
   for (const MeshFile& mesh : mesh_files(copy))
     records.push_back(
-        {mesh.key, fs::absolute(*mesh.path).lexically_normal().string(), mesh_hash(*mesh.path)});
+        {mesh.key, asset_name(fs::absolute(*mesh.path).lexically_normal()), mesh_hash(*mesh.path)});
   return records;
 }
 

@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 
 struct MeshRecord {
   std::string key;   // key that names it: "cloth.file"
-  std::string file;  // absolute path, or a pattern for several files
+  std::string file;  // absolute path, or a pattern for several files; assets/... for shipped ones
   std::string hash;  // hash of its bytes, or of all files together
 };
 

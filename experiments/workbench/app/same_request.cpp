@@ -21,8 +21,6 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::string_view kAssets = "assets/";
-
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 // Returns the path without links, or unchanged if that fails.
@@ -40,20 +38,15 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
 // Returns assets/..., or the path relative to the working folder if it is below that, however it was made
 // absolute; otherwise the given name.
 std::string input_name(const fs::path& file, const fs::path& canonical, const fs::path& here) {
-  std::string name = file.lexically_normal().string();
-  try {
-    name = asset_name(name);
-  } catch (const Error&) {  // in an installation without assets
-  }
+  const std::string name = asset_name(file.lexically_normal());
   const bool is_below = fs::path(name).is_absolute() && is_inside(canonical, here);
   return is_below ? canonical.lexically_relative(here).string() : name;
 }
 
 // Returns the place of a recorded file on this machine.
 fs::path place_of(const InputRecord& input) {
-  if (!input.file.starts_with(kAssets)) return input.file;
-  const fs::path shipped = assets_folder() / input.file.substr(kAssets.size());
   std::error_code ignored;
+  const fs::path shipped = asset_place(input.file);
   return fs::exists(shipped, ignored) ? shipped : fs::path(input.file);
 }
 

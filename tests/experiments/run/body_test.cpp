@@ -2,6 +2,7 @@
 #include "render/compare.h"
 #include "sim/mesh/mesh_export.h"
 #include "sim/mesh/surface.h"
+#include "sim/scene/assets.h"
 #include "tests/experiments/program.h"
 #include "tests/sim/mesh/bodies.h"
 
@@ -46,6 +47,22 @@ TEST_F(RunsWithABody, RecordItsFilesWithTheirBytes) {
   EXPECT_NE(meshes.at("obstacle[0].file").at("hash"), meshes.at("obstacle[0].sequence").at("hash"));
   EXPECT_EQ(manifest.at("inputs").at((project_ / "roll.pc2").string()),
             meshes.at("obstacle[0].sequence").at("hash"));
+}
+
+TEST_F(RunsWithABody, NameShippedFilesAsEveryMachineDoes) {
+  const fs::path leg = assets_folder() / "bodies" / "leg.obj";
+  std::string text = scene("");
+  text.replace(text.find("ball.obj"), std::string("ball.obj").size(), leg.string());
+  text.replace(text.find("0.1, 0.1, 0.1"), std::string("0.1, 0.1, 0.1").size(),
+               "0, 0, -2");  // out of the way
+  folder_.write("project/scene.toml", text);
+  run_into(out_, " --no-images");
+  const std::string name = "assets/bodies/leg.obj";
+  EXPECT_EQ(manifest_in(out_).at("meshes").at("obstacle[0].file").at("file"), name);
+  EXPECT_EQ(manifest_in(out_).at("scene").at("obstacle").at(0).at("file"), name);
+  const fs::path second = folder_.path() / "again";
+  again("rerun", out_, second);
+  EXPECT_EQ(manifest_in(second).at("state_hash"), manifest_in(out_).at("state_hash"));
 }
 
 TEST_F(RunsWithABody, AreRepeatedFromWhereTheFolderWasMovedTo) {

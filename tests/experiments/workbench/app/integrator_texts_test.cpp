@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <limits>
+
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -42,6 +44,12 @@ TEST(Integrator, ThatGivesEnergyIsNotSaidToTakeIt) {
   EXPECT_TRUE(says(text, "gave 0.7 J, 70 % of what else was dissipated"));
   EXPECT_FALSE(says(text, "took"));
   EXPECT_EQ(integrator_text(ledger_with(-0.33), 1e-3), "");
+}
+
+// With half the step nothing else is dissipated.
+TEST(Integrator, ThatIsAllThereIsHasAShareOfAHundred) {
+  const std::string text = integrator_text(2.0 / 3, std::numeric_limits<double>::infinity(), 5e-3);
+  EXPECT_TRUE(says(text, "is 40 %, 100 % with half the step: by these two, 100 % would stay"));
 }
 
 // Parts that fall along a line with the step, and the step at which they are a third.
