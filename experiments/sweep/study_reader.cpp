@@ -142,14 +142,15 @@ class StudyFile {
     return *text;
   }
 
-  // Returns one value as flags take it; it finds files that lie beside the study.
+  // Returns one value as flags take it; it finds files that lie beside the study, and names shipped ones
+  // assets/...
   std::string one_value(const ValueTree& node, const std::string& name) const {
     if (node.kind != ValueTree::Kind::value) throw refusal(node, name + " must be one value");
     const std::string text = flag_text(node.value);
     const fs::path beside = fs::path(file_).parent_path() / text;
     std::error_code ignored;
     const bool names_a_file = fs::path(text).has_extension() && !fs::exists(text, ignored);
-    return names_a_file && fs::is_regular_file(beside, ignored) ? beside.string() : text;
+    return names_a_file && fs::is_regular_file(beside, ignored) ? asset_name(beside) : text;
   }
 
   std::vector<std::string> texts(const ValueTree& node) const {

@@ -47,7 +47,8 @@ fs::path folder_if_any() {
 
 fs::path find_asset(const std::string& kind, const std::string& name, const std::string& origin) {
   std::error_code ignored;
-  if (fs::is_regular_file(name, ignored)) return name;
+  for (const fs::path& file : {fs::path(name), asset_place(name)})
+    if (fs::is_regular_file(file, ignored)) return file;
   const fs::path folder = assets_folder() / kind;
   std::string hyphenated = name;  // others spell the same names with hyphens
   std::replace(hyphenated.begin(), hyphenated.end(), '_', '-');

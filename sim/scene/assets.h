@@ -16,9 +16,9 @@ std::filesystem::path assets_folder();
 // thread asks for assets.
 void set_assets_place(const std::filesystem::path& folder);
 
-// Returns the file that `name` means: an existing file of that name, else assets/<kind>/<name>.toml (kind
-// "fabrics", "scenes").  `origin` says who asks.  Throws Error::invalid_input with the nearest name if there
-// is none.
+// Returns the file that `name` means: an existing file of that name or that asset_name() has named so, else
+// assets/<kind>/<name>.toml (kind "fabrics", "scenes").  `origin` says who asks.  Throws Error::invalid_input
+// with the nearest name if there is none.
 std::filesystem::path find_asset(const std::string& kind, const std::string& name, const std::string& origin);
 
 // Returns a file's name for records: assets/... if it lies in the assets folder, which is elsewhere on every

@@ -189,7 +189,7 @@ struct Keyframe {
 // A prescribed motion: it rotates about the axis through the centre, both those of the start.
 struct Motion {
   std::vector<Keyframe> keys;  // empty: at rest
-  Cycles cycles;               // no key: the scene's cycles (scene/cycles.h), in which the keys hold again
+  Cycles cycles{};             // no key: the scene's cycles (scene/cycles.h), in which the keys hold again
   Eigen::Vector3d axis{0, 0, 1};
   Eigen::Vector3d center{0, 0, 0};  // [m]
 };

@@ -127,17 +127,18 @@ class SceneKeys {
                        [&](const BoundKey& k) { return k.description.path == path; });
   }
 
-  // Resolves the path of a file that may stand beside the scene file.
+  // Resolves the path of a file that may be a shipped one, or stand beside the scene file.
   Value located(const KeyDescription& key, const Value& value) const {
     if (key.traits.file == NamesFile::no) return value;
     const auto* name = std::get_if<std::string>(&value);
-    const fs::path beside = name && !name->empty() ? fs::path(file_).parent_path() / *name : fs::path();
-    if (beside.empty()) return value;
-    std::error_code ignored;
-    if (key.traits.file == NamesFile::pattern)
-      return files_like(*name).empty() && !files_like(beside.string()).empty() ? Value(beside.string())
-                                                                               : value;
-    if (!fs::exists(*name, ignored) && fs::is_regular_file(beside, ignored)) return beside.string();
+    if (!name || name->empty()) return value;
+    const auto is_there = [&](const fs::path& path) {
+      std::error_code ignored;
+      return key.traits.file == NamesFile::pattern ? !files_like(path.string()).empty()
+                                                   : fs::is_regular_file(path, ignored);
+    };
+    for (const fs::path& path : {fs::path(*name), asset_place(*name), fs::path(file_).parent_path() / *name})
+      if (is_there(path)) return path.string();
     return value;
   }
 

@@ -144,7 +144,7 @@ TEST(Program, ListsAsJsonWhatItListsAsText) {
     EXPECT_FALSE(lists.at(list).empty()) << list;
   const auto wool =
       json_in(program("list fabrics wool-tropical-k50 --json").out, "stdout").at("fabrics").at(0);
-  EXPECT_EQ(wool.at("numbers").at("k0").at("range"), nlohmann::json({12.5, 50}));
+  EXPECT_EQ(wool.at("numbers").at("k0").at("range"), Json({12.5, 50}));
   EXPECT_EQ(wool.at("numbers").at("b2").at("known"), "published");
   EXPECT_EQ(wool.at("published").at("drape-coefficient").at("value"), 49.8);
 }

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "render/comparison_sheet.h"
 #include "render/lab.h"
-#include "render/local_deviation.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {
@@ -133,28 +131,6 @@ TEST_F(FidelityTest, FieldsKeepTheColoursOfTheBar) {
         EXPECT_LE(most, 5) << value << ", " << passes << " passes, raking " << raking;
       }
     }
-}
-
-// Returns the deviation of a cell of a sheet, whose cloth is blue.
-double deviation_of_cell(const Image& sheet, int left, int width, int bottom) {
-  std::vector<char> cloth(static_cast<std::size_t>(sheet.width()) * sheet.height(), 0);
-  for (int y = 0; y < bottom; ++y)
-    for (int x = left; x < left + width; ++x)
-      cloth[static_cast<std::size_t>(y) * sheet.width() + x] = sheet.at(x, y)[2] >= sheet.at(x, y)[0] + 19;
-  return local_deviation(sheet, cloth, cloth).median;
-}
-
-// As wide as the README would show it, in its first row: wrinkles that hysteresis keeps are seen at first
-// sight.
-TEST(RecordedPicture, OfCrumpledSheetsShowsWhatPrandtlKeepsAndLinearForgets) {
-  const Image recorded =
-      read_png(std::filesystem::path(HYSTERON_TEST_FOLDER) / "../../results/crumple-table-h200/sheet.png");
-  const Image sheet = shrink(recorded, 838, 838 * recorded.height() / recorded.width());
-  // linear, narain, prandtl, prandtl with set, beside the rows' names.
-  const int left = sheet.width() * 113 / 1000, cell = (sheet.width() - left) / 4,
-            row = sheet.height() * 46 / 100;
-  EXPECT_GE(deviation_of_cell(sheet, left + 2 * cell, cell, row),
-            deviation_of_cell(sheet, left, cell, row) + 2.5);
 }
 
 }  // namespace

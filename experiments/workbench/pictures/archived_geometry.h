@@ -50,7 +50,7 @@ struct ArchivedState {
   std::vector<float> xyz;                            // 3 per vertex [m]
   std::map<std::string, std::vector<float>> values;  // by look, one per vertex
   std::size_t loop = 0;  // number of points of the probe's path so far, which is in the sheet's record
-  std::map<std::size_t, std::vector<float>> bodies;  // by obstacle, for those that change their shape
+  std::map<std::size_t, std::vector<float>> bodies{};  // by obstacle, for those that change their shape
 };
 
 // An obstacle of kind mesh.
@@ -68,7 +68,7 @@ struct ArchivedCloth {
   render::Box bounds;
   std::optional<float> floor;  // [m]
   std::vector<ArchivedState> instants;
-  std::vector<ArchivedBody> bodies;
+  std::vector<ArchivedBody> bodies{};
 };
 
 struct Archived {

@@ -265,7 +265,7 @@ TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
                                                         {"small.png", "30 x 20"}};
   const std::string csv = file_content(out_ / "diff.csv"), tests = file_content(xml);
   for (const auto& [name, reason] : kCases) {
-    const auto printed_line = [&](const std::string& text) {
+    const auto printed_line = [&, name = name](const std::string& text) {
       const std::size_t at = text.find(name);
       return at == text.npos ? "" : text.substr(at, text.find('\n', at) - at);
     };

@@ -31,6 +31,13 @@ TEST(Study, RunsEveryCombinationTheLastAxisFirst) {
   EXPECT_EQ(last_text(line.flags, "seed", ""), "2");
 }
 
+TEST(Study, NamesShippedScenesAsEveryMachineDoes) {
+  const Study study = read_study("drape-tension");
+  EXPECT_EQ(study.axes[0].values,
+            (std::vector<std::string>{"assets/studies/tension-1.toml", "assets/studies/tension-10.toml",
+                                      "assets/studies/tension-100.toml"}));
+}
+
 TEST(Study, SpacesValuesByEqualDifferencesOrEqualRatios) {
   const Study study = parsed_study(
       "experiment = \"swing\"\n[[axis]]\nkey = \"step\"\nlog = [1e-3, 8e-3, 4]\n"

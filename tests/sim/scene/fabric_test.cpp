@@ -477,6 +477,20 @@ TEST(Assets, AreNamedWithoutTheFolderTheyLieIn) {
   EXPECT_EQ(asset_name("/elsewhere/a.toml"), "/elsewhere/a.toml");
 }
 
+TEST(Assets, AreFoundByTheirNamesInRecords) {
+  const std::string name = "assets/fabrics/cotton-broad.toml";
+  EXPECT_EQ(asset_name(asset_place(name)), name);
+  EXPECT_EQ(find_asset("fabrics", name, "test"), asset_place(name));
+  EXPECT_EQ(asset_place("assetsless/a.toml"), "assetsless/a.toml");
+}
+
+TEST(Assets, ThatAreNotThereLeaveNamesAsTheyAre) {
+  setenv("HYSTERON_ASSETS", "/nowhere", 1);
+  EXPECT_EQ(asset_name("/nowhere/a.obj"), "/nowhere/a.obj");
+  EXPECT_EQ(asset_place("assets/a.obj"), "assets/a.obj");
+  unsetenv("HYSTERON_ASSETS");
+}
+
 TEST(Assets, InAFolderThatIsNotThereAreAMachineError) {
   setenv("HYSTERON_ASSETS", "/nowhere", 1);
   EXPECT_TRUE(says(refusal([] { list_assets("fabrics"); }, 1), "HYSTERON_ASSETS = /nowhere"));

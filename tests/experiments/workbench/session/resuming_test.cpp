@@ -16,6 +16,15 @@ const std::string kResumedSwing = "swing --quick --no-images --threads 1 --devic
 const std::string kResumedCrumple =
     "crumple --quick --no-images --threads 1 --device cpu --fps 240 --triangles 100 --seconds 0.3";
 
+// The series of a run that has begun, which catches signals by then.
+constexpr const char* kSeries = "metrics.csv.part";
+
+// Waits until the file is there, for half a minute at most.
+void wait_for(const fs::path& file) {
+  for (int k = 0; k < 30000 && !fs::exists(file); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 // Starts the program, which gets a signal after some milliseconds.  Its wait status.
 int signalled(const std::string& arguments, int signal, int milliseconds, const fs::path& err) {
   const pid_t child = started(arguments + " >/dev/null 2>" + err.string());
@@ -192,17 +201,19 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   const Folder folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";
   const std::string line = kResumedSwing + " --triangles 1000 --checkpoint 1000" + out_flag(out);
-  EXPECT_EQ(
-      WEXITSTATUS(std::system(
-          ("timeout -s TERM 0.4 " HYSTERON_PROGRAM " " + line + " >/dev/null 2>" + err.string()).c_str())),
-      124);  // of `timeout`, which signals the process and its group
+  const pid_t first = started(line + " >/dev/null 2>" + err.string());
+  wait_for(out / kSeries);
+  for (int k = 0; k < 2; ++k) kill(first, SIGTERM);
+  int status = 0;
+  waitpid(first, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 3) << status;
   EXPECT_TRUE(fs::exists(out / "checkpoint")) << file_content(err);
   EXPECT_EQ(manifest_in(out)["complete"], false);
   // The next instant is seconds away.
   const std::string slow =
       "run hanging-square --no-images --quiet --threads 1 --device cpu --triangles 6000 --step 1e-4 --fps 1";
   const pid_t child = started(slow + " --checkpoint 1000" + out_flag(folder.path() / "slow"));
-  int status = 0;
+  wait_for(folder.path() / "slow" / kSeries);
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   kill(child, SIGTERM);
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
