@@ -1,10 +1,11 @@
 #include "render/shadow_maps.h"
-#include "sim/base/rotation.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <string>
+
+#include "sim/base/rotation.h"
 
 namespace hysteron::render {
 

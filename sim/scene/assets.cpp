@@ -10,8 +10,16 @@ namespace hysteron {
 namespace fs = std::filesystem;
 
 namespace {
-const fs::path kAssets = "assets";  // how names in records begin
-fs::path assets_place;              // the folder of another program that uses the library; empty: none
+constexpr char kAssets[] = "assets";  // how names in records begin
+fs::path assets_place;                // the folder of another program that uses the library; empty: none
+
+fs::path folder_if_any() {
+  try {
+    return assets_folder();
+  } catch (const Error&) {  // in an installation without assets
+    return {};
+  }
+}
 }  // namespace
 
 void set_assets_place(const fs::path& folder) { assets_place = folder; }
@@ -35,16 +43,6 @@ fs::path assets_folder() {
   throw Error::system("no assets folder at " + join(looked, " or ") + "; set HYSTERON_ASSETS to it");
 }
 
-namespace {
-fs::path folder_if_any() {
-  try {
-    return assets_folder();
-  } catch (const Error&) {  // in an installation without assets
-    return {};
-  }
-}
-}  // namespace
-
 fs::path find_asset(const std::string& kind, const std::string& name, const std::string& origin) {
   std::error_code ignored;
   for (const fs::path& file : {fs::path(name), asset_place(name)})
@@ -67,13 +65,14 @@ std::string asset_name(const fs::path& file) {
   const fs::path inside =
       fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder).lexically_normal());
   const bool outside = inside.empty() || *inside.begin() == "..";
-  return outside ? file.string() : (kAssets / inside).string();
+  return outside ? file.string() : (fs::path(kAssets) / inside).string();
 }
 
 fs::path asset_place(const std::string& name) {
-  const fs::path path = name, folder = folder_if_any();
-  if (folder.empty() || path.empty() || *path.begin() != kAssets) return path;
-  return folder / path.lexically_relative(kAssets);
+  const fs::path path = name;
+  if (path.empty() || *path.begin() != kAssets) return path;
+  const fs::path folder = folder_if_any();
+  return folder.empty() ? path : folder / path.lexically_relative(kAssets);
 }
 
 std::vector<std::string> list_assets(const std::string& kind) {

@@ -14,6 +14,7 @@
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "sim/base/error.h"
+#include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/surface.h"
 
@@ -87,22 +88,48 @@ class ReferenceRun {
           "mesh");
   }
 
-  // True if one of its instants is that of `time` [s] of a run with steps of `step` [s]: both runs record the
-  // step nearest to an instant, so that they agree to half of both.  A run that has come to rest stays at its
-  // last instant.
-  bool has_instant(double time, double step) const {
-    constexpr double kRounding = 1e-9;  // rounding in sums of steps [s]
-    return (rests_ && time > time_.back()) ||
-           std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
+  // True if curvature() is that of `time` [s] of a run with steps of `step` [s].  Both runs record the step
+  // nearest to an instant, so that instants agree to half of both steps.  A run that has come to rest stays
+  // at its last instant, and between two instants of one that all but rests its curvature is known.
+  bool has_instant(const ClothMesh& mesh, double time, double step) const {
+    return (rests_ && time > time_.back()) || is_instant(time, step) || all_but_rests(mesh, time);
   }
 
-  // Returns one curvature per vertex [1/m], at that run's instant nearest to `time` [s].  Throws as check()
-  // does for other triangles.
-  std::vector<float> curvature(const ClothMesh& mesh, double time) const {
-    return curvature_in(mesh, nearest(time));
+  // Returns one curvature per vertex [1/m]: at that run's instant nearest to `time` [s], or between two of
+  // them if none agrees with one of a run with steps of `step` [s].  Throws as check() does for other
+  // triangles.
+  std::vector<float> curvature(const ClothMesh& mesh, double time, double step) const {
+    const std::size_t after = first_after(time);
+    if (is_instant(time, step) || after == 0 || after == time_.size())
+      return curvature_in(mesh, nearest(time));
+    std::vector<float> before = curvature_in(mesh, after - 1), then = curvature_in(mesh, after);
+    const auto part = static_cast<float>((time - time_[after - 1]) / (time_[after] - time_[after - 1]));
+    for (std::size_t i = 0; i < before.size(); ++i) before[i] += part * (then[i] - before[i]);
+    return before;
   }
 
  private:
+  static constexpr double kStill =
+      1;  // change of curvature from one instant to the next, root mean square [1/m]
+
+  bool is_instant(double time, double step) const {
+    constexpr double kRounding = 1e-9;  // rounding in sums of steps [s]
+    return std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
+  }
+
+  bool all_but_rests(const ClothMesh& mesh, double time) const {
+    const std::size_t after = first_after(time);
+    if (after == 0 || after == time_.size()) return false;
+    std::vector<float> change = curvature_in(mesh, after);
+    const std::vector<float> before = curvature_in(mesh, after - 1);
+    std::ranges::transform(change, before, change.begin(), std::minus<>());
+    return root_mean_square(change, mesh.vertex_area) < kStill;
+  }
+
+  std::size_t first_after(double time) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(time_, time) - time_.begin());
+  }
+
   std::size_t nearest(double time) const {
     const auto found = std::ranges::min_element(time_, {}, [&](double t) { return std::abs(t - time); });
     return static_cast<std::size_t>(found - time_.begin());
@@ -150,12 +177,12 @@ class SimulatedSubject : public FrameSource {
     std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
     if (look == "curvature") return curvature;
     if (!has_values(look)) return std::vector<float>(curvature.size(), 0);
-    const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
+    const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time(), step_);
     std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
     return curvature;
   }
   bool has_values(const std::string& look) const override {
-    return look != "difference" || reference_->has_instant(simulation_.time(), step_);
+    return look != "difference" || reference_->has_instant(cloth_.mesh, simulation_.time(), step_);
   }
   std::vector<double> vertex_areas() const override { return cloth_.mesh.vertex_area; }
   int cuda_device() const override { return simulation_.cuda_device(); }
@@ -222,6 +249,15 @@ std::unique_ptr<FrameSource> simulated(const Scene& scene, const Cloth& cloth, S
   return std::make_unique<SimulatedSubject>(scene, cloth, simulation, reference);
 }
 
+std::vector<float> shape_curvature(const std::vector<float>& xyz, const std::vector<int>& triangles) {
+  std::vector<Eigen::Vector3d> x;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) x.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  std::vector<Eigen::Vector3i> face;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
+    face.emplace_back(triangles[i], triangles[i + 1], triangles[i + 2]);
+  return surface_curvature(x, face, "kept geometry");
+}
+
 std::vector<float> ArchivedSource::values(const std::string& look) {
   const ArchivedState& instant = instants_[now_];
   if (const auto kept = instant.values.find(look); kept != instant.values.end()) return kept->second;
@@ -231,13 +267,7 @@ std::vector<float> ArchivedSource::values(const std::string& look) {
                                look + " (--look)")
         .with_key("look", look);
   if (look != "curvature") return {};
-  std::vector<Eigen::Vector3d> x;
-  for (std::size_t i = 0; i + 2 < instant.xyz.size(); i += 3)
-    x.emplace_back(instant.xyz[i], instant.xyz[i + 1], instant.xyz[i + 2]);
-  std::vector<Eigen::Vector3i> face;
-  for (std::size_t i = 0; i + 2 < mesh_.triangles.size(); i += 3)
-    face.emplace_back(mesh_.triangles[i], mesh_.triangles[i + 1], mesh_.triangles[i + 2]);
-  return surface_curvature(x, face, "kept geometry");
+  return shape_curvature(instant.xyz, mesh_.triangles);
 }
 
 }  // namespace hysteron::experiments

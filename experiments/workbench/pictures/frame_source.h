@@ -41,6 +41,10 @@ DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape);
 // has 3 indices each, `xyz` 3 numbers a vertex [m].
 std::vector<double> vertex_areas(const std::vector<int>& triangles, const std::vector<float>& xyz);
 
+// Returns the curvature at each vertex of a shape whose rest shape is not kept [1/m].  Throws as
+// surface_curvature() does.
+std::vector<float> shape_curvature(const std::vector<float>& xyz, const std::vector<int>& triangles);
+
 // `reference` is the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
 // outlive the result.
 std::unique_ptr<FrameSource> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,

@@ -8,6 +8,7 @@
 
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/law_family.h"
+#include "experiments/workbench/pictures/bent_part.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "sim/base/archive.h"
 #include "sim/base/atomic_file.h"
@@ -317,9 +318,35 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<Archived
                        {.path = motion.back().loop, .color = color_of_law(scene_.law)}});
     for (const ArchivedInstant& instant : instants) cells.push_back(sheet_cell(studio, instant, view));
     cells = distinct_cells(cells);
+    for (render::SheetEntry& cell : bent_cells(studio, instants, view)) cells.push_back(std::move(cell));
     for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
     return cells;
   });
+}
+
+// Draws the part that is bent most, of the instant in which it is and of the last, from one place; nothing if
+// that instant is drawn from nearer by already.
+std::vector<render::SheetEntry> Pictures::bent_cells(SceneRenderer& studio,
+                                                     const std::vector<ArchivedInstant>& instants,
+                                                     const SheetView& view) const {
+  const ArchivedInstant* most = nullptr;
+  Bending bending;
+  for (const ArchivedInstant& instant : instants)
+    if (Bending own = bending_of(instant.xyz, source_->mesh().triangles);
+        !most || own.total() > bending.total()) {
+      bending = std::move(own);
+      most = &instant;
+    }
+  std::vector<render::SheetEntry> cells;
+  if (nearer_view(most->xyz, view, options_)) return cells;
+  const std::optional<NearerView> part = bent_part(most->xyz, bending, view);
+  for (const ArchivedInstant* instant : {most, &instants.back()})
+    if (part && (cells.empty() || instant != most))
+      cells.push_back({sheet_picture(studio, *instant, part->camera),
+                       fmt::format("t = {:.2f} s", instant->time),
+                       {},
+                       part->enlargement});
+  return cells;
 }
 
 // Draws the last instant at the scale of the others.

@@ -105,6 +105,9 @@ class Pictures {
   std::vector<render::SheetEntry> sheet_cells(const std::vector<ArchivedInstant>& instants,
                                               const std::vector<ArchivedInstant>& motion,
                                               const SheetView& view);
+  std::vector<render::SheetEntry> bent_cells(SceneRenderer& studio,
+                                             const std::vector<ArchivedInstant>& instants,
+                                             const SheetView& view) const;
   render::SheetEntry further_cell(SceneRenderer& studio, const FurtherView& from,
                                   const SheetView& view) const;
   void write_sheet(Run& run, const std::string& title);

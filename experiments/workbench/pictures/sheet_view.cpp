@@ -9,13 +9,13 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kCellPixels = 560 * 420;         // pixels drawn for each cell
-constexpr float kRoom = 0.06f;                    // margin around a cell's contents on either side
+constexpr float kMargin = 0.06f;                  // margin around a cell's contents on either side
 constexpr float kTallest = 0.4f, kWidest = 2.4f;  // least and largest aspect of a cell
 constexpr double kWorthwhile = 1.75;              // least enlargement of a picture from nearer by
 
 render::Camera camera_from(const Eigen::Vector3f& direction, const std::vector<float>& xyz, float aspect,
                            const Options& options) {
-  return render::Camera::around(xyz, direction, static_cast<float>(options.camera_fov), aspect, kRoom);
+  return render::Camera::around(xyz, direction, static_cast<float>(options.camera_fov), aspect, kMargin);
 }
 
 render::Camera camera_around(const std::vector<float>& xyz, float aspect, const Options& options) {

@@ -106,6 +106,34 @@ TEST(Difference, LeavesOutInstantsThatTheOtherRunDoesNotHave) {
   EXPECT_EQ(has_difference("beyond"), (std::vector<bool>{true, false, false}));
 }
 
+// In a fraction of gravity the strip bends by less than 1/m in 0.03 s, so that its curvature is known between
+// its instants, too: a run of the same strip differs by what a straight line between them leaves out.
+TEST(Difference, IsTakenBetweenInstantsOfARunThatAllButRests) {
+  const Folder folder;
+  const auto run = [&](const std::string& name, const std::string& more) {
+    const Outcome outcome = program("swing" + out_flag(folder.path() / name) + kSmallSwing +
+                                    " --law linear --gravity 0,0,-0.5 " + more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  };
+  run("first", "--export ply");
+  const auto curvature = [&](const char* file) {
+    return read_surface((folder.path() / "first/mesh" / file).string()).curvature;
+  };
+  const std::vector<double> a = curvature("0001.ply"), b = curvature("0002.ply");  // at 1/30 and at 2/30 s
+  double change = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) change += (b[i] - a[i]) * (b[i] - a[i]);
+  change = std::sqrt(change / static_cast<double>(a.size()));
+  ASSERT_GT(change, 0.05);
+
+  const Outcome between =
+      run("between", "--fps 20 --look difference --reference " + (folder.path() / "first").string());
+  EXPECT_FALSE(says(between.err, "has no instant")) << between.err;
+  const Json at = manifest_in(folder.path() / "between")["frames"]["moments"][1];  // at 0.05 s
+  EXPECT_GT(at["difference_rms_per_m"].get<double>(), 0);
+  EXPECT_LT(at["difference_rms_per_m"].get<double>(), 0.2 * change);
+}
+
 // The triangles are the same, with every side twice as long.
 TEST(Difference, RefusesARunOfAnotherRestShape) {
   const Folder folder;

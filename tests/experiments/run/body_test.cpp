@@ -20,11 +20,11 @@ class RunsWithABody : public testing::Test {
     folder_.write("project/scene.toml", scene("sequence = \"roll.pc2\"\nfps = 20\n"));
   }
 
-  static std::string scene(const std::string& of_body) {
+  static std::string scene(const std::string& of_body, const std::string& file = "ball.obj",
+                           const std::string& center = "[0.1, 0.1, 0.1]") {
     return "mesh = \"unionjack\"\ntriangles = 32\nstep = 0.01\nseconds = 0.1\nfps = 20\n[cloth]\nshape = "
-           "\"square\"\nlength = 0.2\nposition = [0, 0, 0.4]\n[[obstacle]]\nkind = \"mesh\"\nfile = "
-           "\"ball.obj\"\ncenter = [0.1, 0.1, 0.1]\n" +
-           of_body;
+           "\"square\"\nlength = 0.2\nposition = [0, 0, 0.4]\n[[obstacle]]\nkind = \"mesh\"\nfile = \"" +
+           file + "\"\ncenter = " + center + "\n" + of_body;
   }
   Outcome run_into(const fs::path& out, const std::string& flags = "") const {
     return finished("run " + (project_ / "scene.toml").string() +
@@ -51,11 +51,7 @@ TEST_F(RunsWithABody, RecordItsFilesWithTheirBytes) {
 
 TEST_F(RunsWithABody, NameShippedFilesAsEveryMachineDoes) {
   const fs::path leg = assets_folder() / "bodies" / "leg.obj";
-  std::string text = scene("");
-  text.replace(text.find("ball.obj"), std::string("ball.obj").size(), leg.string());
-  text.replace(text.find("0.1, 0.1, 0.1"), std::string("0.1, 0.1, 0.1").size(),
-               "0, 0, -2");  // out of the way
-  folder_.write("project/scene.toml", text);
+  folder_.write("project/scene.toml", scene("", leg.string(), "[0, 0, -2]"));  // out of the way
   run_into(out_, " --no-images");
   const std::string name = "assets/bodies/leg.obj";
   EXPECT_EQ(manifest_in(out_).at("meshes").at("obstacle[0].file").at("file"), name);
