@@ -41,7 +41,8 @@ class RunsWithABody : public testing::Test {
 
 TEST_F(RunsWithABody, RecordItsFilesWithTheirBytes) {
   run_into(out_, " --no-images");
-  const Json manifest = manifest_in(out_), meshes = manifest.at("meshes");
+  const Json manifest = manifest_in(out_);
+  const Json& meshes = manifest.at("meshes");
   EXPECT_EQ(meshes.at("obstacle[0].file").at("file"), (project_ / "ball.obj").string());
   EXPECT_EQ(meshes.at("obstacle[0].sequence").at("file"), (project_ / "roll.pc2").string());
   EXPECT_NE(meshes.at("obstacle[0].file").at("hash"), meshes.at("obstacle[0].sequence").at("hash"));
