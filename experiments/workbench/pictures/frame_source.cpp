@@ -88,42 +88,39 @@ class ReferenceRun {
           "mesh");
   }
 
-  // True if curvature() is that of `time` [s] of a run with steps of `step` [s].  Both runs record the step
-  // nearest to an instant, so that instants agree to half of both steps.  A run that has come to rest stays
-  // at its last instant, and between two instants of one that all but rests its curvature is known.
+  // True if curvature() knows that of `time` [s] of a run with steps of `step` [s].
   bool has_instant(const ClothMesh& mesh, double time, double step) const {
-    return (rests_ && time > time_.back()) || is_instant(time, step) || all_but_rests(mesh, time);
+    return is_instant(time, step) || between_instants(mesh, time);
   }
 
-  // Returns one curvature per vertex [1/m]: at that run's instant nearest to `time` [s], or between two of
-  // them if none agrees with one of a run with steps of `step` [s].  Throws as check() does for other
-  // triangles.
-  std::vector<float> curvature(const ClothMesh& mesh, double time, double step) const {
-    const std::size_t after = first_after(time);
-    if (is_instant(time, step) || after == 0 || after == time_.size())
-      return curvature_in(mesh, nearest(time));
-    std::vector<float> before = curvature_in(mesh, after - 1), then = curvature_in(mesh, after);
-    const auto part = static_cast<float>((time - time_[after - 1]) / (time_[after] - time_[after - 1]));
-    for (std::size_t i = 0; i < before.size(); ++i) before[i] += part * (then[i] - before[i]);
-    return before;
+  // Returns one curvature per vertex [1/m] at `time` [s] of a run with steps of `step` [s]; nothing if this
+  // run moves there and has no such instant.  Throws as check() does for other triangles.
+  std::optional<std::vector<float>> curvature(const ClothMesh& mesh, double time, double step) const {
+    if (is_instant(time, step)) return curvature_in(mesh, nearest(time));
+    return between_instants(mesh, time);
   }
 
  private:
-  static constexpr double kStill =
-      1;  // change of curvature from one instant to the next, root mean square [1/m]
-
+  // True if an instant is that of `time`: both runs record the step nearest to it, so that they agree to half
+  // of both steps.  A run that has come to rest stays at its last instant.
   bool is_instant(double time, double step) const {
     constexpr double kRounding = 1e-9;  // rounding in sums of steps [s]
-    return std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
+    return (rests_ && time > time_.back()) ||
+           std::abs(time_[nearest(time)] - time) <= (step + step_) / 2 + kRounding;
   }
 
-  bool all_but_rests(const ClothMesh& mesh, double time) const {
+  // Returns the curvature on a straight line between two instants of a run that all but rests [1/m]: one
+  // whose curvature changes by less than 1/m, root mean square, from one to the other.
+  std::optional<std::vector<float>> between_instants(const ClothMesh& mesh, double time) const {
+    constexpr double kStill = 1;  // [1/m]
     const std::size_t after = first_after(time);
-    if (after == 0 || after == time_.size()) return false;
-    std::vector<float> change = curvature_in(mesh, after);
-    const std::vector<float> before = curvature_in(mesh, after - 1);
-    std::ranges::transform(change, before, change.begin(), std::minus<>());
-    return root_mean_square(change, mesh.vertex_area) < kStill;
+    if (after == 0 || after == time_.size()) return std::nullopt;
+    std::vector<float> curvature = curvature_in(mesh, after - 1), change = curvature_in(mesh, after);
+    std::ranges::transform(change, curvature, change.begin(), std::minus<>());
+    if (root_mean_square(change, mesh.vertex_area) >= kStill) return std::nullopt;
+    const auto part = static_cast<float>((time - time_[after - 1]) / (time_[after] - time_[after - 1]));
+    for (std::size_t i = 0; i < curvature.size(); ++i) curvature[i] += part * change[i];
+    return curvature;
   }
 
   std::size_t first_after(double time) const {
@@ -176,9 +173,9 @@ class SimulatedSubject : public FrameSource {
     if (look != "curvature" && look != "difference") return {};
     std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
     if (look == "curvature") return curvature;
-    if (!has_values(look)) return std::vector<float>(curvature.size(), 0);
-    const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time(), step_);
-    std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
+    const auto other = reference_->curvature(cloth_.mesh, simulation_.time(), step_);
+    if (!other) return std::vector<float>(curvature.size(), 0);
+    std::transform(curvature.begin(), curvature.end(), other->begin(), curvature.begin(), std::minus<>());
     return curvature;
   }
   bool has_values(const std::string& look) const override {

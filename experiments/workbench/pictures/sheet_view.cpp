@@ -58,10 +58,15 @@ std::optional<NearerView> nearer_view(const std::vector<float>& xyz, const Sheet
   const double nearest = scale_at(xyz, own, view.height);
   const double enlargement = std::floor(10 * view.metres_per_pixel / nearest) / 10;
   if (enlargement < kWorthwhile) return std::nullopt;
-  const float back = static_cast<float>(view.metres_per_pixel / enlargement / nearest);
-  return NearerView{render::Camera::perspective(own.target() + back * (own.eye() - own.target()),
-                                                own.target(), own.fov_degree()),
-                    static_cast<float>(enlargement)};
+  return nearer(own, nearest, enlargement, view);
+}
+
+NearerView nearer(const render::Camera& camera, double metres_per_pixel, double enlargement,
+                  const SheetView& view) {
+  const auto back = static_cast<float>(view.metres_per_pixel / enlargement / metres_per_pixel);
+  return {render::Camera::perspective(camera.target() + back * (camera.eye() - camera.target()),
+                                      camera.target(), camera.fov_degree()),
+          static_cast<float>(enlargement)};
 }
 
 render::Camera further_view(const std::vector<float>& xyz, const Eigen::Vector3f& direction,

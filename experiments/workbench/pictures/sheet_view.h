@@ -28,6 +28,10 @@ struct NearerView {
   render::Camera camera;
   float enlargement;  // over the other cells, a multiple of 0.1
 };
+// Returns the view of a perspective camera, whose pictures have `metres_per_pixel`, from as far as shows
+// everything `enlargement` times as large as the other cells do.
+NearerView nearer(const render::Camera& camera, double metres_per_pixel, double enlargement,
+                  const SheetView& view);
 // Returns a view in which the cloth of one instant, `xyz`, fills a cell; nothing if it fills most of one
 // already, or if the options set the view.
 std::optional<NearerView> nearer_view(const std::vector<float>& xyz, const SheetView& view,

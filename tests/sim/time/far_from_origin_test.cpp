@@ -56,7 +56,7 @@ double difference(Precision precision) {
 
 TEST(FarFromTheOrigin, ClothMovesAsItDoesThere) {
   const double thickness = Fabric{}.thickness;
-  // Of the thickness, of which a double resolves 4e-9 that far away; a float 6e-5 here.
+  // Both are shares of the thickness, of which a double resolves 4e-9 that far away and a float 6e-5 here.
   constexpr double kOfDouble = 2e-8, kOfFloat = 0.1;
   EXPECT_LT(difference(Precision::fp64), kOfDouble * thickness);
   EXPECT_LT(difference(Precision::fp32), kOfFloat * thickness);
